@@ -21,7 +21,6 @@ from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import steps
 from seamwire.operators.chain import Chain
 from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 
 ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
@@ -218,7 +217,7 @@ def dismiss(ui: driver.Ui) -> None:
 
 def said() -> str:
     """Return what the status bar says of the chain."""
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
+    return "; ".join(text for _, text in running[0].hints())
 
 
 def undo_steps(capfd: pytest.CaptureFixture[str]) -> list[str]:

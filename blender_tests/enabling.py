@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Enable the add-on under the name ``seamwire``, whatever name Blender gave it."""
+"""Enable the add-on under the name ``seamwire``, whatever name Blender gave it, and Seamwire Networks as ``seamwire_networks``."""
 
 import importlib
 import pkgutil
@@ -11,14 +11,17 @@ from scene import ADDON
 from turns import leave
 
 
-def enable_addon() -> None:
-    """Enable the add-on and fail loudly where Blender would only print."""
-    failures: list[str] = []
-    module = addon_utils.enable(ADDON, default_set=True, handle_error=lambda _: failures.append(traceback.format_exc()))
-    if module is None or failures:
-        sys.stderr.write(f"The add-on {ADDON} could not be enabled.\n" + "".join(failures))
-        leave(3)
-    for part in pkgutil.walk_packages(module.__path__, f"{ADDON}."):
-        importlib.import_module(part.name)
-    for name in [name for name in sys.modules if name == ADDON or name.startswith(f"{ADDON}.")]:
-        sys.modules["seamwire" + name.removeprefix(ADDON)] = sys.modules[name]
+def enable_addons() -> None:
+    """Enable both add-ons, and fail loudly where Blender would only print."""
+    for addon, own in ((ADDON, "seamwire"), (f"{ADDON}_networks", "seamwire_networks")):
+        failures: list[str] = []
+        module = addon_utils.enable(
+            addon, default_set=True, handle_error=lambda _, to=failures: to.append(traceback.format_exc())
+        )
+        if module is None or failures:
+            sys.stderr.write(f"The add-on {addon} could not be enabled.\n" + "".join(failures))
+            leave(3)
+        for part in pkgutil.walk_packages(module.__path__, f"{addon}."):
+            importlib.import_module(part.name)
+        for name in [name for name in sys.modules if name == addon or name.startswith(f"{addon}.")]:
+            sys.modules[own + name.removeprefix(addon)] = sys.modules[name]

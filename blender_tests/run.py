@@ -3,7 +3,7 @@
 
 Expects the environment that ``scripts/blender-test`` sets: SEAMWIRE_BLENDER_PACKAGES, the folder that holds pytest and greenlet, and
 BLENDER_USER_SCRIPTS, the folder that holds the add-on. SEAMWIRE_ADDON is the add-on's name where Blender gave it another one than
-``seamwire``, as it does to extensions; the tests import it as ``seamwire`` all the same.
+``seamwire``, as it does to extensions; the tests import it as ``seamwire`` all the same, and Seamwire Networks as ``seamwire_networks``.
 
 In the background pytest simply runs; with a window in turns with Blender (see ``turns.py``). Tests are plain functions in both cases.
 """
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import pytest
-from enabling import enable_addon
+from enabling import enable_addons
 from progress import plugins
 from turns import leave, play
 
@@ -31,7 +31,7 @@ def run_pytest() -> int:
 
 
 faulthandler.enable()
-enable_addon()
+enable_addons()
 if bpy.app.background:
     leave(run_pytest())
 # Blender smooths the view by drawing it eight times, and here the processor draws: it took two thirds of the tests' time.

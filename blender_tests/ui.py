@@ -38,7 +38,7 @@ def prepare_blender(switch_to_blender: Callable[[], object]) -> None:
     sys.excepthook = _collect_unhandled
     for name in dir(bpy.types):
         cls = getattr(bpy.types, name)
-        if getattr(cls, "__module__", "").startswith(f"{ADDON}."):
+        if getattr(cls, "__module__", "").startswith((f"{ADDON}.", f"{ADDON}_networks.")):
             _collect_from_methods(cls)
 
 
@@ -55,7 +55,10 @@ def _collect_from_methods(cls: type) -> None:
         if name in cls.__dict__:
             setattr(cls, name, _collecting_event(cls.__dict__[name]))
     for name in ("execute", "cancel", "draw"):
-        if name in cls.__dict__:
+        parts = getattr(cls.__dict__.get(name), "_draw_funcs", None)
+        if parts is not None:  # a menu with entries of another add-on
+            parts[0] = _collecting(parts[0])
+        elif name in cls.__dict__:
             setattr(cls, name, _collecting(cls.__dict__[name]))
 
 

@@ -100,9 +100,9 @@ def measure(path: Path) -> None:
     """Print a line for each change."""
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.settings import settings
-    from seamwire.networks.carry import network_of, seam_wires, shape_of
-    from seamwire.networks.core.placing import Shape
-    from seamwire.networks.core.transfer import transfer
+    from seamwire_networks.carry import network_of, seam_wires, shape_of
+    from seamwire_networks.placing import Shape
+    from seamwire_networks.transfer import transfer
 
     source, wanted = add(path)
     drawn = ObjectSession(source)

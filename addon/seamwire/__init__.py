@@ -19,6 +19,7 @@ bl_info = {
     "location": "3D View > Edit Mode > Toolbar, Edge Menu and UV Menu",
     "category": "UV",
 }
+VERSION = bl_info["version"]  # Blender removes `bl_info` from extensions
 
 # After an update Blender reloads only this file. The parts must be imported again as well.
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
@@ -34,13 +35,13 @@ _PARTS = (
     "operators.unwrap_islands",
     "operators.undo_steps",
     "operators.draw",
-    "networks.network_operators",
     "view.handlers",
     "operators.hover",
     "ui.keymap",
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",
+    "ui.companions",
 )
 
 

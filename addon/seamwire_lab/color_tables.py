@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from seamwire.interface import ColorMap
+    from .tool import ColorMap
 
 
 def _of_hex(text: str) -> ColorMap:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows the views: in Edit Mode as a layer of the tool, in Object Mode over the active object.
 
-Until the first view is switched on, neither NumPy nor the tool is imported.
+Until the first view is switched on, NumPy is not imported.
 """
 
 from __future__ import annotations
@@ -18,11 +18,10 @@ from .lab_settings import is_any_shown, listeners
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import ModuleType
 
     import seamwire_core
-    from seamwire.interface import Arrays, Pose
 
+    from .tool import Arrays, Pose
     from .views import Views
 
 _RHYTHM = 0.05
@@ -36,27 +35,27 @@ _PAUSE = 0.3
 class _ActiveViews:
     """The views of the active object of Object Mode, or the reason why it has none."""
 
-    def __init__(self, found: ModuleType, obj: bpy.types.Object) -> None:
+    def __init__(self, obj: bpy.types.Object) -> None:
         self.problem = ""
         self.views: Views | None = None
         self.along = "EDGES"
         try:
-            core = found.load()
-            arrays, selected = found.read_evaluated(obj)
+            core = tool.load()
+            arrays, selected = tool.read_evaluated(obj)
         except (ValueError, ImportError) as error:
             self.problem = str(error)
             return
         # If all vertices are selected, as in new meshes, nobody has chosen one.
         self.source = int(selected.argmax()) if selected.any() and not selected.all() else None
         self.to_object = Matrix(arrays.to_object.tolist()).to_4x4()
-        self.auto = found.auto_for(obj, arrays)
+        self.auto = tool.auto_for(obj, arrays)
         self.views = _views(
-            arrays, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges), found.Pose(arrays)
+            arrays, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges), tool.Pose(arrays)
         )
 
-    def follow(self, found: ModuleType) -> None:
+    def follow(self) -> None:
         """Follow the settings."""
-        options = found.snapshot(found.settings(), auto=self.auto)
+        options = tool.snapshot(tool.settings(), auto=self.auto)
         self.along = options.along
         self.views.follow(options, self.source)
 
@@ -80,7 +79,7 @@ class Follower:
     """Lets the tool draw the views in Edit Mode, and draws them itself in Object Mode."""
 
     def __init__(self) -> None:
-        self._tool: ModuleType | None = None
+        self._has_layer = False
         self._shown: _ActiveViews | None = None
         self._active: tuple[str, str] | None = None
         self._handles: list[object] = []
@@ -116,7 +115,9 @@ class Follower:
     def leave(self) -> None:
         """Show nothing anywhere."""
         self.stop()
-        self._use(None)
+        if self._has_layer:
+            tool.remove_layer(_views)
+        self._has_layer = False
 
     @property
     def views(self) -> Views | None:
@@ -144,8 +145,8 @@ class Follower:
         """Follow changed settings."""
         if is_any_shown() and not bpy.app.background:
             self.start()
-        if self._tool is not None:
-            self._tool.tell_listeners()
+        if self._has_layer:
+            tool.tell_listeners()
 
     def tick(self) -> float | None:
         """Follow what is active. Return the seconds until the next call, or None if no view is switched on.
@@ -165,35 +166,27 @@ class Follower:
         if not is_any_shown():
             self.stop()
             return None
-        self._use(tool.find())
+        if not self._has_layer:
+            # It stays, and keeps what it has computed.
+            tool.add_layer(_views)
+            self._has_layer = True
         obj = _active()
         names = None if obj is None else _names(obj)
         if names != self._active or (self._is_stale and time.monotonic() - self._changed > _PAUSE):
             self._forget()
             self._active = names
-        if obj is None or self._tool is None:
+        if obj is None:
             return _IDLE
         if self._shown is None:
-            self._shown = _ActiveViews(self._tool, obj)
+            self._shown = _ActiveViews(obj)
             _redraw()
         self._shown.attempt(self._follow)
         return _RHYTHM if self.views is not None and self.views.busy else _IDLE
 
     def _follow(self) -> None:
-        self._shown.follow(self._tool)
+        self._shown.follow()
         if self._shown.views.poll():
             _redraw()
-
-    def _use(self, found: ModuleType | None) -> None:
-        """Draw with the tool that is enabled now, and with no other. A layer stays on the tool, and keeps what it has computed."""
-        if found is self._tool:
-            return
-        self._forget()
-        if self._tool is not None:
-            self._tool.remove_layer(_views)
-        self._tool = found
-        if found is not None:
-            found.add_layer(_views)
 
     def _forget(self) -> None:
         if self._shown is not None:
@@ -204,8 +197,6 @@ class Follower:
         context, obj = bpy.context, _active()
         if obj is None or self._shown is None or _names(obj) != self._active or self._is_stale:
             return
-        if tool.find() is not self._tool:
-            return  # it was disabled since the last tick
         if context.space_data is None:
             return  # another add-on draws the view into a picture
         if context.space_data.overlay.show_overlays and obj.visible_in_viewport_get(context.space_data):
@@ -213,18 +204,17 @@ class Follower:
 
     def _draw_in_scene(self, obj: bpy.types.Object) -> None:
         def draw() -> None:
-            eye = self._tool.Eye(bpy.context.region_data, obj.matrix_world @ self._shown.to_object)
+            eye = tool.Eye(bpy.context.region_data, obj.matrix_world @ self._shown.to_object)
             self.views.draw_heat(eye)
             self.views.draw_lines(eye)
 
         self._shown.attempt(draw)
 
     def _draw_on_screen(self, _obj: bpy.types.Object) -> None:
-        found = self._tool
-        legends = [found.Legend((self.problem,))] if self.problem else self.views.legends()
-        with found.blended("NONE"):
-            room = found.free_room(bpy.context.area, bpy.context.region)
-            found.draw_legends(legends, room, bpy.context.preferences.system.ui_scale)
+        legends = [tool.Legend((self.problem,))] if self.problem else self.views.legends()
+        with tool.blended("NONE"):
+            room = tool.free_room(bpy.context.area, bpy.context.region)
+            tool.draw_legends(legends, room, bpy.context.preferences.system.ui_scale)
 
 
 def _views(arrays: Arrays, surface: Callable[[], seamwire_core.Surface], pose: Pose) -> Views:

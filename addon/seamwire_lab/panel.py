@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from . import tool
+from .follower import follower
 from .lab_settings import LINES, settings
 from .store_fields import ITEMS, OPERATOR
 
@@ -26,24 +27,18 @@ class VIEW3D_PT_seamwire_lab(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the views. In Object Mode, show the tool's settings too, because they decide what is seen."""
-        layout, chosen, found = self.layout, settings(), tool.find()
+        layout, chosen = self.layout, settings()
         layout.use_property_split = True
         layout.use_property_decorate = False
-        if found is None:
-            layout.label(text=tool.MISSING, icon="ERROR")
-            layout = layout.column()
-            layout.enabled = False
         layout.prop(chosen, "heat")
         column = layout.column(heading="Show")
         for name in LINES:
             column.prop(chosen, name)
         layout.prop(chosen, "shown_metric")
-        if found is not None and context.mode == "OBJECT":
-            from .follower import follower
-
-            of_tool = found.settings(context)
+        if context.mode == "OBJECT":
+            of_tool = tool.settings(context)
             layout.prop(of_tool, "along")
-            layout.prop(of_tool, found.strength_name(follower.along))
+            layout.prop(of_tool, tool.strength_name(follower.along))
             layout.prop(of_tool, "metric")
         layout.menu(VIEW3D_MT_seamwire_lab_store.bl_idname)
 

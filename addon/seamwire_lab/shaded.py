@@ -9,11 +9,12 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from .tool import interface
+from .tool import Within, draw_over, whole
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from seamwire.interface import Eye
+
+    from .tool import Eye
 
 
 class ShadedFaces:
@@ -35,7 +36,7 @@ class ShadedFaces:
         self._shader = gpu.shader.from_builtin("SMOOTH_COLOR")
 
         def make(eye: Eye) -> gpu.types.GPUBatch | None:
-            seen = interface().whole(triangles, eye.shows(points))
+            seen = whole(triangles, eye.shows(points))
             if not len(seen):
                 return None
             return batch_for_shader(
@@ -45,7 +46,7 @@ class ShadedFaces:
                 indices=np.ascontiguousarray(seen, dtype=np.uint32),
             )
 
-        self._within = interface().Within(make)
+        self._within = Within(make)
 
     def draw(self, eye: Eye, lift: float) -> None:
         """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
@@ -59,7 +60,7 @@ class ShadedFaces:
 
     def draw_over(self, eye: Eye) -> None:
         """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`."""
-        interface().draw_over(lambda lift: self.draw(eye, lift))
+        draw_over(lambda lift: self.draw(eye, lift))
 
 
 class ColoredLines:
@@ -95,7 +96,7 @@ class ColoredLines:
                 },
             )
 
-        self._within = interface().Within(make)
+        self._within = Within(make)
 
     def draw(self, eye: Eye) -> None:
         """Draw those that the view's clipping border leaves, under the depth test that is set."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bmesh
 import bpy
 
-from .tool import interface
+from . import tool
 
 if TYPE_CHECKING:
     import numpy as np
@@ -87,7 +87,6 @@ def _store(obj: bpy.types.Object, view: str) -> tuple[float, float]:
     from .fields import FieldMaker
     from .views import request_for
 
-    tool = interface()
     core, arrays = tool.load(), tool.read(obj)
     source = selected_vertex(obj) if view == "DISTANCE" else None
     if view == "DISTANCE" and source is None:
@@ -110,7 +109,7 @@ def selected_vertex(obj: bpy.types.Object) -> int | None:
     If all vertices are selected, as in new meshes, nobody has chosen one.
     """
     if obj.mode == "EDIT":
-        bm = interface().edit_bmesh(obj.data)
+        bm = tool.edit_bmesh(obj.data)
         active = bm.select_history.active
         if isinstance(active, bmesh.types.BMVert) and not active.hide:
             return active.index
@@ -134,7 +133,7 @@ def _is_taken(bm: bmesh.types.BMesh, name: str) -> bool:
 def _write(obj: bpy.types.Object, name: str, values: NDArray[np.float32]) -> None:
     mesh = obj.data
     if obj.mode == "EDIT":
-        bm = interface().edit_bmesh(mesh)
+        bm = tool.edit_bmesh(mesh)
         layer = bm.verts.layers.float.get(name)
         if layer is None and _is_taken(bm, name):
             raise ValueError(_TAKEN.format(name))

@@ -11,16 +11,17 @@ from . import color_tables, fields
 from .fields import FieldMaker, FieldRequest
 from .lab_settings import LINES, settings
 from .shaded import ColoredLines, ShadedFaces
-from .tool import interface
+from .tool import ColoredFaces, Legend, Lines, Newest, Style, blended, kinds_of, load, steps
+from .tool import colors as colors_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import seamwire_core
     from numpy.typing import NDArray
-    from seamwire.interface import Arrays, Color, ColoredFaces, ColorMap, Eye, Legend, Lines, Options, Pose
 
     from .fields import Ellipses, Fields, Part, Source
+    from .tool import Arrays, Color, ColorMap, Eye, Options, Pose
 
 _STEPS = 64
 """Colors of a legend's bar."""
@@ -47,7 +48,7 @@ def request_for(
     options: Options, parts: frozenset[Part], source: Source | None, strokes: tuple[object, ...] = ()
 ) -> FieldRequest:
     """Return a request for fields in the metric that the settings of the tool and of this add-on name."""
-    kinds = interface().kinds_of(options.metric)
+    kinds = kinds_of(options.metric)
     kind = kinds[min(("MIN", "MAX").index(settings().shown_metric), len(kinds) - 1)]
     return FieldRequest(parts, options.metric, options.strength, options.clamp, kind, source, strokes)
 
@@ -66,12 +67,11 @@ class Views:
     """
 
     def __init__(self, arrays: Arrays, surface: Callable[[], seamwire_core.Surface], pose: Pose) -> None:
-        self._tool = interface()
         self._arrays = arrays
         self._pose = pose
-        core = self._tool.load()
+        core = load()
         maker = FieldMaker(core, surface, lambda: not self._maker.superseded)
-        self._maker = self._tool.Newest(maker.make, "seamwire-lab", (core.Cancelled,))
+        self._maker = Newest(maker.make, "seamwire-lab", (core.Cancelled,))
         self._asked: FieldRequest | None = None
         self._heat: Part | None = None
         self._visible: frozenset[Part] = frozenset()
@@ -154,7 +154,7 @@ class Views:
         return self._pose.places(segments.reshape(-1, 3)).reshape(-1, 2, 3)
 
     def _lines(self, style: dict[str, object], segments: NDArray[np.float64]) -> Lines:
-        return self._tool.Lines(self._tool.Style(**style), segments)
+        return Lines(Style(**style), segments)
 
     def draw_heat(self, eye: Eye) -> bool:
         """Color the faces, and return whether there was anything to color."""
@@ -174,7 +174,6 @@ class Views:
 
     def draw_lines(self, eye: Eye) -> None:
         """Draw everything else."""
-        blended = self._tool.blended
         invalid = self._shown("INVALID")
         if invalid is not None:
             self._once("invalid", invalid, lambda: self._invalid_faces(invalid)).draw_over(
@@ -209,7 +208,7 @@ class Views:
         return kept[1]
 
     def _invalid_faces(self, invalid: fields.Invalid) -> ColoredFaces:
-        faces = self._tool.ColoredFaces(self._pose.points)
+        faces = ColoredFaces(self._pose.points)
         kinds = (invalid.split, invalid.repaired, invalid.left)
         faces.fill((color, self._arrays.triangles[numbers]) for color, numbers in enumerate(kinds))
         return faces
@@ -273,7 +272,7 @@ class HeatScale:
         """Return the colors of numbers, (n, 3)."""
         width = self.high - self.low
         parts = (values - self.low) / width if width > 0.0 else np.zeros_like(values)
-        return interface().colors(np.nan_to_num(parts, posinf=1.0), self.map)
+        return colors_of(np.nan_to_num(parts, posinf=1.0), self.map)
 
     def legend(self, heat: Part) -> Legend:
         """Return the legend of a heat view."""
@@ -290,7 +289,7 @@ class HeatScale:
             "CONCAVITY": ("Curvature", "Concave: purple, convex: orange"),
             "DISTANCE": ("Distance in the metric",),
         }
-        return _legend(titles[heat], interface().steps(self.map, _STEPS), marks)
+        return _legend(titles[heat], steps(self.map, _STEPS), marks)
 
 
 def _place_of(eye: Eye) -> NDArray[np.float64] | None:
@@ -303,7 +302,7 @@ def _place_of(eye: Eye) -> NDArray[np.float64] | None:
 
 
 def _legend(*parts: object, **swatches: object) -> Legend:
-    return interface().Legend(*parts, **swatches)
+    return Legend(*parts, **swatches)
 
 
 def _text(number: float) -> str:
@@ -313,7 +312,7 @@ def _text(number: float) -> str:
 def _ellipse_faces(ellipses: Ellipses) -> tuple[ShadedFaces, ShadedFaces]:
     """Return the rims of ellipses, and the colored insides that lie above the rims."""
     colors = np.ones((len(ellipses.centres), 4))
-    colors[:, :3] = interface().colors(_anisotropy_parts(ellipses), color_tables.VIRIDIS)
+    colors[:, :3] = colors_of(_anisotropy_parts(ellipses), color_tables.VIRIDIS)
     rims = np.broadcast_to(np.array(_RIM), colors.shape)
     return _fans(ellipses, _RIM_WIDTH * ellipses.spacing, rims), _fans(ellipses, 0.0, colors)
 
@@ -362,7 +361,7 @@ def _of_invalid(invalid: fields.Invalid) -> Legend:
 def _of_ellipses(ellipses: Ellipses) -> Legend:
     largest = float(ellipses.anisotropy.max(initial=1.0))
     marks = ((0.0, "1"), (0.5, _text(largest**0.5)), (1.0, _text(largest)))
-    return _legend(("Anisotropy; long where paths are short",), interface().steps(color_tables.VIRIDIS, _STEPS), marks)
+    return _legend(("Anisotropy; long where paths are short",), steps(color_tables.VIRIDIS, _STEPS), marks)
 
 
 def _of_silhouette(_silhouette: fields.Silhouette) -> Legend:
@@ -376,4 +375,4 @@ def _of_bands(isolines: fields.Isolines) -> Legend:
 def _of_paths(paths: fields.Paths) -> Legend:
     scale = HeatScale.of("DISTANCE", paths.lengths)
     marks = ((0.0, "0"), (0.5, _text(0.5 * scale.high)), (1.0, _text(scale.high)))
-    return _legend((f"Length of {len(paths.lengths)} shortest paths",), interface().steps(scale.map, _STEPS), marks)
+    return _legend((f"Length of {len(paths.lengths)} shortest paths",), steps(scale.map, _STEPS), marks)

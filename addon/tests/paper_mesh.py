@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.network import Drawn
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.strokes import on_mesh
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.storage import wire_labels
 from seamwire.core.storage.serialization import Archive, Places
 from seamwire.core.storage.wire_labels import EdgeLabels, Found, Plan

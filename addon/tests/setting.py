@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.picks import Pick
 from seamwire.core.network.wires import Wire
 from seamwire.core.sketch.interaction import Edit
+from seamwire.core.sketch.sketch import Sketch
 
 
 def use(session: Sketch, **changes: object) -> bool:

@@ -9,9 +9,9 @@ import numpy as np
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.network.wires import Wire
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options
 
@@ -38,14 +38,14 @@ class Table:
 
         self.points = centred_points() if centred else grid_points(SIZE)
         self.session = Sketch(
-                make,
-                self.points,
-                Options(along=along),
-                edges=grid_edges(SIZE),
-                seams=seams,
-                triangles=grid_triangles(SIZE),
-                make_stroke=lambda one: one,
-            )
+            make,
+            self.points,
+            Options(along=along),
+            edges=grid_edges(SIZE),
+            seams=seams,
+            triangles=grid_triangles(SIZE),
+            make_stroke=lambda one: one,
+        )
 
     def compute(self) -> None:
         """Let all live wires be ready, and take it in."""

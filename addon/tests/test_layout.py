@@ -12,26 +12,24 @@ from pathlib import Path
 
 import pytest
 from blender_refusal import BLENDERS
+from seamwire import interface
 from seamwire.terms.choices import FINISHES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
 LAB = ROOT.parent / "seamwire_lab"
+NETWORKS = ROOT.parent / "seamwire_networks"
 BATCH = ROOT.parents[1] / "batch" / "seamwire_batch"
 ROOMS = ("base", "network", "solver", "storage", "seams", "islands", "fields", "offers", "drawing", "picking")
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (
     "terms",
     *(f"core.{room}" for room in ROOMS),
-    "networks.core",
     "words",
     "mesh",
     "view",
     "operators",
     "ui",
-    "networks",
 )
-CORES = ("core.", "networks.core.")
-"""The modules that do not know Blender, and hold no sentence for artists."""
 KNOWN_CYCLES = {("operators.chain_state", "operators.chain"): {"operators.chain", "operators.chain_state"}}
 """Imports of types that lead back to the module itself, and all modules on the way."""
 
@@ -74,7 +72,7 @@ def test_a_module_imports_from_its_own_package_or_room_and_those_below(path: Pat
     own, others = imported(path)
     name = name_of(path)
     assert [other for other in own if floor_of(other) > floor_of(name)] == []
-    if name.startswith((*CORES, "words.")):
+    if name.startswith(("core.", "words.")):
         assert not others & BLENDERS
 
 
@@ -87,9 +85,10 @@ def shared(named: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
 
 
 def named_files() -> list[Path]:
-    """Return the modules of both add-ons and of the command for batches. Each folder has an `__init__`."""
-    files = [path for folder in (ROOT, LAB, BATCH) for path in sorted(folder.rglob("*.py"))]
-    return [path for path in files if path.name != "__init__.py"]
+    """Return the modules of all add-ons and of the command for batches. Each folder has an `__init__`, and each other add-on
+    has its access to the tool."""
+    files = [path for folder in (ROOT, LAB, NETWORKS, BATCH) for path in sorted(folder.rglob("*.py"))]
+    return [path for path in files if path.name not in {"__init__.py", "tool.py"}]
 
 
 def test_no_two_modules_share_a_name() -> None:
@@ -122,7 +121,7 @@ def test_the_page_of_words_names_what_there_is() -> None:
 
 def test_the_recipes_name_what_there_is() -> None:
     native = ROOT.parents[1] / "native"
-    folders = (ROOT, LAB, ROOT.parents[1], native, native / "src", native / "include/seamwire")
+    folders = (ROOT, LAB, NETWORKS, ROOT.parents[1], native, native / "src", native / "include/seamwire")
     named = re.findall(r"`([^`\s]+)`", (ROOT.parents[1] / "docs/development/recipes.md").read_text(encoding="utf-8"))
     paths = [name for name in named if re.fullmatch(r"[\w/-]+\.(py|pyi|cpp|hpp|json|md)|[\w-]+(/[\w-]+)+", name)]
     assert [path for path in paths if not any((folder / path).exists() for folder in folders)] == []
@@ -147,55 +146,60 @@ def test_a_finish_is_named_by_its_table_and_by_what_carries_it_out_only() -> Non
     assert named == {"terms.choices", "terms.options", "mesh.finishes", "operators.finish"}
 
 
-def test_nothing_of_the_drawing_tool_imports_networks() -> None:
-    tool = [path for path in sorted(ROOT.rglob("*.py")) if path.relative_to(ROOT).parts[0] != "networks"]
-    assert [path for path in tool for name in imported(path)[0] if name.split(".")[0] == "networks"] == []
-    named = [
-        node.value
-        for path in tool
-        for node in strings(ast.parse(path.read_text(encoding="utf-8")))
-        if re.fullmatch(r"\.?networks(\.\w+)*", node.value)
-    ]
-    assert named == ["networks.network_operators"], "the part that the add-on registers"
-
-
 def test_the_core_has_rooms_only() -> None:
     core = ROOT / "core"
     assert {path.name for path in core.iterdir() if path.is_dir() and path.name != "__pycache__"} == set(ROOMS)
     assert [path.name for path in core.glob("*.py")] == ["__init__.py"]
 
 
-def test_the_lab_uses_nothing_of_the_tool_but_its_interface() -> None:
-    names = set(interface_names())
-    for path in LAB.glob("*.py"):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        for node in ast.walk(tree):
+@pytest.mark.parametrize("folder", [LAB, NETWORKS], ids=lambda folder: folder.name)
+def test_another_add_on_uses_nothing_of_the_tool_but_its_interface(folder: Path) -> None:
+    used, calls = set(), set()
+    for path in folder.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 assert not [name.name for name in node.names if name.name.split(".")[0] == "seamwire"], path.name
-            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module.split(".")[0] == "seamwire":
-                assert node.module == "seamwire.interface", path.name
-                assert {name.name for name in node.names} <= names, path.name
-    calls = [
-        (path.name, ast.unparse(node))
-        for path in LAB.glob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {"import_module", "__import__"}
-    ]
-    own = {("__init__.py", "import_module(f'.{name}', __package__)")}
-    assert set(calls) - own == {("tool.py", "import_module(f'{_addon.__name__}.interface')")}
+            elif isinstance(node, ast.ImportFrom) and (node.level, node.module) == (1, "tool"):
+                used.update(name.name for name in node.names)
+            elif isinstance(node, ast.ImportFrom):
+                assert node.level < 2 and (node.module or "").split(".")[0] != "seamwire", path.name
+            elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "tool":
+                used.add(node.attr)
+            elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {
+                "import_module",
+                "__import__",
+            }:
+                calls.add((path.name, ast.unparse(node.args[0])))
+    assert used <= set(interface_names())
+    assert calls == {("__init__.py", "f'{name}.interface'"), ("tool.py", "'seamwire.interface'")}
+
+
+def test_the_other_add_ons_join_the_tool_in_the_same_way() -> None:
+    def common(folder: Path) -> str:
+        return (folder / "__init__.py").read_text("utf-8").partition("\n# After an update")[2]
+
+    assert (LAB / "tool.py").read_text("utf-8") == (NETWORKS / "tool.py").read_text("utf-8")
+    assert common(LAB) == common(NETWORKS) != ""
 
 
 def interface_names() -> list[str]:
     """Return the names that the tool's interface offers."""
-    tree = ast.parse((ROOT / "interface.py").read_text(encoding="utf-8"))
-    imports = [node for node in tree.body if isinstance(node, ast.ImportFrom) and node.level]
-    own = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    names = [name.name for node in imports for name in node.names if name.name not in own]
-    return [*names, *(node.name for node in tree.body if isinstance(node, ast.FunctionDef))]
+    return [*interface.PLACES, "add_layer", "remove_layer"]
 
 
-def test_the_lab_uses_all_of_the_interface() -> None:
-    text = "".join(path.read_text(encoding="utf-8") for path in LAB.glob("*.py"))
+def test_the_interface_names_what_there_is() -> None:
+    missing = [
+        name
+        for name, module in interface.PLACES.items()
+        if not re.search(
+            rf"^(def |class |    )?{name}\b", (ROOT / f"{module.replace('.', '/')}.py").read_text("utf-8"), re.MULTILINE
+        )
+    ]
+    assert missing == []
+
+
+def test_the_other_add_ons_use_all_of_the_interface() -> None:
+    text = "".join(path.read_text(encoding="utf-8") for folder in (LAB, NETWORKS) for path in folder.glob("*.py"))
     assert [name for name in interface_names() if not re.search(rf"\b{name}\b", text)] == []
 
 
@@ -234,18 +238,6 @@ def strings(tree: ast.Module) -> Iterator[ast.Constant]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs:
             yield node
-
-
-def test_the_core_holds_no_sentence_for_artists() -> None:
-    found = [
-        f"{name_of(path)}:{node.lineno}: {node.value}"
-        for path in modules()
-        if name_of(path).startswith(CORES) and path.stem not in {"color_maps", "messages"}
-        for node in strings(ast.parse(path.read_text(encoding="utf-8")))
-        if node.value.strip().count(" ") >= 2
-    ]
-    # What only programmers read: arguments that do not fit each other.
-    assert [one for one in found if "labels for" not in one and "neither points nor" not in one] == []
 
 
 def names_in(tree: ast.ClassDef) -> set[str]:

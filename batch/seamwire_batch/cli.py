@@ -84,7 +84,10 @@ def parser() -> argparse.ArgumentParser:
     )
     what.add_argument("--bpy", action="store_true", help="this Python's module bpy in Blender's place")
     what.add_argument(
-        "--addon", metavar="FOLDER", default="", help="the folder that has the add-on's folder, if it is not installed"
+        "--addon",
+        metavar="FOLDER",
+        default="",
+        help="the folder that has the add-ons' folders, if they are not installed",
     )
     what.add_argument("--engine", choices=("here", "dask"), default="here", help="what works on the assets (here)")
     what.add_argument("--scheduler", metavar="ADDRESS", default="", help="of Dask, such as tcp://10.0.0.1:8786")
@@ -174,8 +177,9 @@ def machine_of(arguments: argparse.Namespace) -> Machine:
     if arguments.memory and not sys.platform.startswith("linux"):
         raise UsageError("--memory works on Linux only")
     addon = str(Path(arguments.addon).resolve()) if arguments.addon else ""
-    if addon and not (Path(addon) / "seamwire" / "__init__.py").is_file():
-        raise UsageError(f"--addon: there is no folder seamwire in {arguments.addon}")
+    for name in ("seamwire", "seamwire_networks"):
+        if addon and not (Path(addon) / name / "__init__.py").is_file():
+            raise UsageError(f"--addon: there is no folder {name} in {arguments.addon}")
     return Machine(command, addon, arguments.limit, arguments.memory)
 
 

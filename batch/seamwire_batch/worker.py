@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     import bpy
     import numpy as np
     from seamwire.mesh.object_session import ObjectSession
-    from seamwire.networks.carry import Source
+    from seamwire_networks.carry import Source
 
     from seamwire_batch.assets import MeshObjects
 
@@ -79,27 +79,30 @@ def _kilobytes(of: str) -> int:
     return next((int(line.split()[1]) for line in lines if line.startswith(f"{of}:")), 0)
 
 
-def enable_addon(folder: str | None) -> None:
-    """Enable the add-on that is installed, or lies in a folder; raises AssetError."""
+def enable_addons(folder: str | None) -> None:
+    """Enable Seamwire and Seamwire Networks, which are installed or lie in a folder; raises AssetError."""
+    if folder:
+        sys.path.insert(0, folder)
+    _enable_addon("seamwire", "Seamwire", bool(folder))
+    _enable_addon("seamwire_networks", "Seamwire Networks", bool(folder))
+
+
+def _enable_addon(addon: str, title: str, is_on_path: bool) -> None:
     import addon_utils
 
     from seamwire_batch.assets import AssetError
 
-    if folder:
-        sys.path.insert(0, folder)
-        names = ["seamwire"]
-    else:
-        names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == "seamwire"]
-    for name in names:
+    installed = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == addon]
+    for name in [addon] if is_on_path else installed:
         module = addon_utils.enable(name)
         if module is not None:
             # By one name, however it is installed.
             for part in pkgutil.walk_packages(module.__path__, f"{name}."):
                 importlib.import_module(part.name)
             for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
-                sys.modules[f"seamwire{known.removeprefix(name)}"] = sys.modules[known]
+                sys.modules[f"{addon}{known.removeprefix(name)}"] = sys.modules[known]
             return
-    raise AssetError("The add-on Seamwire is not installed in this Blender: name its folder with --addon")
+    raise AssetError(f"The add-on {title} is not installed in this Blender: name the folder that has it with --addon")
 
 
 def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa: ANN401 - bpy.ops has no type
@@ -216,7 +219,7 @@ class Run:
 
     def _chosen(self, meshes: MeshObjects) -> list[bpy.types.Object]:
         """Return the objects that get seams: where one network is for one mesh, which one must be clear."""
-        from seamwire.networks.carry import Source
+        from seamwire_networks.carry import Source
 
         from seamwire_batch.assets import AssetError
 
@@ -262,7 +265,7 @@ class Run:
                 self.warnings.append(f"{obj.name}: nothing was marked")
             return
         from seamwire.mesh.object_session import ObjectSession
-        from seamwire.networks.carry import carry_over, write
+        from seamwire_networks.carry import add, carry_over
 
         from seamwire_batch.assets import AssetError
 
@@ -273,11 +276,12 @@ class Run:
         self.warnings += [f"{obj.name}: {problem}" for problem in found.problems]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")
-        write(mesh, found)
+        add(mesh, found)
+        mesh.write(mesh.plan())
 
     def _source(self, obj: bpy.types.Object) -> Source:
         """Return the network for an object, from a file or from the source asset."""
-        from seamwire.networks.carry import Source
+        from seamwire_networks.carry import Source
 
         if self._job["way"] == "network":
             return Source.load(Path(self._job["network"]))
@@ -403,7 +407,7 @@ class Run:
         """Write the seams of each object as a network beside the asset: few formats keep seams."""
         from seamwire.mesh.object_session import ObjectSession
         from seamwire.mesh.settings import settings
-        from seamwire.networks.carry import network_of, seam_wires
+        from seamwire_networks.carry import network_of, seam_wires
 
         for number, obj in enumerate(objects):
             with _editing(obj):
@@ -447,7 +451,7 @@ class Run:
 def _network_of(mesh: ObjectSession) -> Source:
     """Return the wires of an object and wires along its other seams, with all that is known of its mesh."""
     from seamwire.mesh.settings import settings
-    from seamwire.networks.carry import Source, seam_wires
+    from seamwire_networks.carry import Source, seam_wires
 
     return Source.of(mesh, settings(), seam_wires(mesh))
 
@@ -537,7 +541,7 @@ def main() -> int:
         if job["kind"] == "sheet":
             result |= sheet(job)
         else:
-            enable_addon(job["addon"])
+            enable_addons(job["addon"])
             run = Run(job)
             result |= run.source() if job["kind"] == "source" else run.asset()
     except (AssetError, ValueError) as error:

@@ -18,7 +18,7 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
     from seamwire.core.base import native
 
     def fail() -> None:
-        raise native.NativeError("no-build", name="seamwire_core", version="3.11", system="linux")
+        raise native.NativeError("Seamwire's compiled part, seamwire_core, is missing")
 
     monkeypatch.setattr(native, "load", fail)
     obj = add_grid(3)

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seamwire Lab in the background: views stored as attributes of the vertices, and life without the tool."""
+"""Seamwire Lab in the background: views stored as attributes of the vertices."""
 
 from __future__ import annotations
-
-import subprocess
 
 import bpy
 import numpy as np
 import pytest
 import traces
-from lab import LAB, disable_lab, enable_lab, of_lab, part
+from lab import disable_lab, enable_lab, of_lab
 from scene import add_object, add_suzanne, edit
 from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
@@ -102,24 +100,6 @@ def test_a_mesh_without_edges_is_refused() -> None:
 
 
 @pytest.mark.every_blender
-def test_without_the_tool_it_says_what_is_missing_and_goes_on_with_the_tool() -> None:
-    obj = add_suzanne()
-    traces.disable()
-    try:
-        with pytest.raises(RuntimeError, match="Enable the add-on Seamwire"):
-            bpy.ops.mesh.seamwire_lab_store(view="STRENGTH")
-        disable_lab()
-        enable_lab()
-        with pytest.raises(RuntimeError, match="Enable the add-on Seamwire"):
-            bpy.ops.mesh.seamwire_lab_store(view="STRENGTH")
-        assert part("tool").find() is None
-    finally:
-        traces.enable()
-    assert bpy.ops.mesh.seamwire_lab_store(view="STRENGTH") == {"FINISHED"}
-    assert "feature_strength" in obj.data.attributes
-
-
-@pytest.mark.every_blender
 def test_disabled_it_leaves_nothing_behind() -> None:
     with_lab = traces.traces()
     assert len(of_lab()) > 5
@@ -129,30 +109,3 @@ def test_disabled_it_leaves_nothing_behind() -> None:
     enable_lab()
     assert not bpy.context.window_manager.seamwire_lab.show_paths
     assert traces.difference(with_lab, traces.traces()) == {}
-
-
-@pytest.mark.every_blender
-def test_importing_it_does_not_import_numpy() -> None:
-    if not bpy.app.binary_path:
-        pytest.skip("Blender as a Python module cannot be started again")
-    code = "\n".join(
-        (
-            "import addon_utils, sys",
-            "loaded = set(sys.modules)",
-            f"assert addon_utils.enable({LAB!r}) is not None",
-            "print('Read:', *sorted(set(sys.modules) - loaded))",
-        )
-    )
-    command = [
-        bpy.app.binary_path,
-        "--background",
-        "--factory-startup",
-        "--python-exit-code",
-        "3",
-        "--python-expr",
-        code,
-    ]
-    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
-    read = next(line for line in output.splitlines() if line.startswith("Read:"))
-    assert "follower" in read
-    assert "numpy" not in read, "Blender's start would wait for it"

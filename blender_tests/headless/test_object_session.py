@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, changing, edit, fail, mark_wires, seams, set_seams, snapshot
-from seamwire.core.sketch.network import Snap
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -39,7 +38,7 @@ def grid() -> bpy.types.Object:
 
 def draw(mesh: ObjectSession, *picks: int) -> None:
     for pick in picks:
-        assert mesh.session.click(pick), str(mesh.session.reason)
+        assert mesh.session.click(pick), mesh.session.reason
         mesh.session.wait()
     write(mesh)
 
@@ -245,44 +244,29 @@ def test_it_does_not_go_on_with_another_shape(grid: bpy.types.Object) -> None:
     with changing(grid) as bm:
         bm.verts[40].co.z += 0.5
     assert not mesh.refresh(grid)
-    assert mesh.follow_change(grid, mesh.session.network) is None
+    assert not mesh.rebind(grid)
     assert session_on(grid).refresh(grid)
 
 
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_after_a_scripts_undo_moved_split_and_removed_wires_stay_so(grid: bpy.types.Object, along: str) -> None:
+def test_what_is_drawn_is_kept_after_a_script_has_written_other_wires(grid: bpy.types.Object) -> None:
     mesh = session_on(grid)
-    session = mesh.session
-    session.follow(replace(session.options, along=along))
-    draw(mesh, 36, 40)
-    draw(mesh, 63, 71)
-    draw(mesh, 72, 76)
-    assert session.draw_stroke(vertices=[20, 24], attracts=True, acts_on="both")
+    draw(mesh, 36, 44)
+    draw(session_on(grid), 0, 4)
+    assert not mesh.rebind(grid)
+    assert mesh.alive(), "its wires can be finished"
     write(mesh)
-    before = session.network
-    moved, split, removed = before.wires
-    for grip, place in ((40, 49), (67, 58)):
-        assert session.drag(Snap(grip, "WIRE", split) if grip == 67 else grip)
-        session.drag_to(place)
-        session.wait()
-        session.drag_end()
-        session.wait()
-    session.drop(removed)
-    session.erase(before.strokes[0])
-    done = sorted(wire.vertices for wire in session.wires)
-    assert len(done) == 3
-    # As after a script's undo, the mesh has other wires than before the chain.
-    again = session_on(grid)
-    draw(again, 0, 4)
-    found = mesh.follow_change(grid, before)
-    assert found is not None
-    assert found is not before
-    assert sorted(wire.vertices for wire in session.wires) == sorted([*done, (0, 1, 2, 3, 4)])
-    assert {wire.id for wire in session.wires} >= {wire.id for wire in found.wires if wire.vertices == moved.vertices}
-    assert session.network.strokes == ()
-    write(mesh)
+    assert chains(grid) == [(0, 1, 2, 3, 4), ROW]
+    assert seams(grid) == sorted(chain(*range(5)) + chain(*ROW))
     assert agree(grid)
-    assert not set(chain(*range(72, 77))) & set(seams(grid))
+
+
+def test_a_mesh_that_nobody_else_changed_is_the_same(grid: bpy.types.Object) -> None:
+    mesh = session_on(grid)
+    draw(mesh, 36, 44)
+    assert mesh.rebind(grid)
+    set_seams(grid, (0, 1), *chain(*ROW))
+    assert not mesh.rebind(grid)
+    assert mesh.plain_seams.tolist() == [[0, 1]]
 
 
 def test_it_tells_when_its_mesh_is_gone(grid: bpy.types.Object) -> None:
@@ -302,11 +286,13 @@ def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.O
         mesh.session.click(pick)
         mesh.session.wait()
     mesh.session.end_chain()
+    rest = snapshot(grid, with_seams=False)
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert mesh.follow_change(grid, mesh.session.network) is None
+    assert not mesh.rebind(grid)
     mesh.write(mesh.plan())
     assert seams(grid) == sorted(chain(*ROW) + chain(4, 13, 22))
     edit()
+    assert snapshot(grid, with_seams=False) == rest, "nothing else has changed"
     assert chains(grid) == [(4, 13, 22), ROW]
     assert agree(grid)
 
@@ -317,7 +303,7 @@ def test_after_edit_mode_was_left_removed_wires_leave_no_labels(grid: bpy.types.
     mesh = session_on(grid)
     mesh.session.drop(mesh.session.wires[0])
     bpy.ops.object.mode_set(mode="OBJECT")
-    mesh.follow_change(grid, mesh.session.network)
+    assert not mesh.rebind(grid)
     mesh.write(mesh.plan())
     assert seams(grid) == []
     assert LAYER not in grid.data.attributes

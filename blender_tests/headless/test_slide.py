@@ -6,8 +6,6 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_layers, changing, edit, mark_wires, seams, snapshot
-from seamwire.mesh.finishes import FINISHERS
-from seamwire.terms.choices import FINISHES
 from stored import agree, session_on
 
 CHAIN = "14 45"
@@ -202,7 +200,3 @@ def test_mirror_images_slide_too() -> None:
     partner = np.array([np.argmin(np.linalg.norm(before - place * (-1.0, 1.0, 1.0), axis=1)) for place in before])
     assert np.allclose(flipped[partner], after, atol=1e-6)
     assert (np.abs(after - before).max(axis=1) > 1e-6).sum() >= 4
-
-
-def test_each_finish_has_a_function() -> None:
-    assert [name for name, row in FINISHES.items() if row.edits and not row.cuts] == list(FINISHERS)

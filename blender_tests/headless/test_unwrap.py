@@ -8,13 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
-from scene import add_grid, add_layers, add_object, add_suzanne, changing, edit, mark_wires, set_seams, snapshot
+from scene import add_grid, add_layers, add_object, add_suzanne, changing, edit, set_seams, snapshot
 from seamwire.core.base import native
-from seamwire.core.sketch.change import Change
-from seamwire.mesh import finishes
-from seamwire.mesh.seam_islands import worst_island
-from seamwire.mesh.unwrap import UNWRAPPED
-from stored import island_count, session_on, write
 
 ROWS = 9
 OWN = "edges int .seamwire_unwrapped"
@@ -296,36 +291,6 @@ def test_a_seam_that_is_cleared_joins_its_islands() -> None:
     assert np.array_equal(before[48:], after[48:])
     # The corners of both rows of faces at what was a seam.
     assert after[16:24, 3] == pytest.approx(after[24:32, 0])
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("by_blender", [False, True])
-def test_islands_that_were_parted_by_a_cut_are_unwrapped_as_one_once_it_is_taken_back(by_blender: bool) -> None:
-    obj = add_hill()
-    edit()
-    bpy.ops.mesh.seamwire_unwrap()
-    whole = worst_island(obj, "AREA").value
-    # Across the faces, in their middle, from border to border: no edge is left that it went along.
-    mark_wires(chains="(-1 0.13 0) (1 0.13 0)", along="SURFACE", finish="CUT")
-    assert island_count(obj) == 2
-    if by_blender:
-        bm = bmesh.from_edit_mesh(obj.data)
-        bm.edges.layers.int.remove(bm.edges.layers.int[UNWRAPPED])
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.uv.unwrap()
-    else:
-        assert unwrap() == {"FINISHED"}
-    mesh = session_on(obj)
-    before = mesh.session.network
-    for wire in before.wires:
-        mesh.session.drop(wire)
-    write(mesh)
-    assert finishes.apply(mesh, Change(before, mesh.session.network))[1].taken_back > 0
-    assert island_count(obj) == 1
-    assert worst_island(obj, "AREA").value > whole + 0.1
-    assert unwrap() == {"FINISHED"}
-    assert worst_island(obj, "AREA").value == pytest.approx(whole, abs=0.02)
-    assert unwrap() == {"CANCELLED"}
 
 
 @pytest.mark.every_blender

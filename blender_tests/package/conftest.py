@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The packages that were built, and the Blender to try them in.
 
-They are named by SEAMWIRE_PACKAGE, SEAMWIRE_LAB_PACKAGE, BLENDER and SEAMWIRE_BLENDER_NAME.
+They are named by SEAMWIRE_PACKAGE, SEAMWIRE_LAB_PACKAGE, SEAMWIRE_NETWORKS_PACKAGE, BLENDER and SEAMWIRE_BLENDER_NAME.
 """
 
 import os
@@ -25,9 +25,9 @@ def package() -> Path:
 
 
 @pytest.fixture(scope="session")
-def lab_package() -> Path:
-    """The zip of Seamwire Lab."""
-    return Path(os.environ["SEAMWIRE_LAB_PACKAGE"])
+def other_packages() -> dict[str, Path]:
+    """The zips of the other add-ons, by their names."""
+    return {f"seamwire_{name}": Path(os.environ[f"SEAMWIRE_{name.upper()}_PACKAGE"]) for name in ("lab", "networks")}
 
 
 @pytest.fixture

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 
 import bpy
 import pytest
-from desk import Desk, choose, dismiss, drag, draw, undo_steps
+from desk import Desk, choose, drag, draw, undo_steps
 from scene import seams
 from seamwire.operators import undo_steps as undo_steps_of_chains
 
@@ -154,29 +154,3 @@ def test_a_loop_stays_whatever_operator_came_before_it(desk: Desk, name: str, op
     assert after != before
     adjust(desk)
     assert seams(desk.obj) == after
-
-
-@pytest.mark.parametrize("name", ["loop", "removal"])
-def test_f9_after_a_gesture_says_how_to_change_it_and_leaves_it(
-    unwrapped: Desk, name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    gesture, title = GESTURES[name]
-    gesture(unwrapped)
-    unwrapped.ui.wait_until(lambda: not unwrapped.running)
-    after = seams(unwrapped.obj)
-    monkeypatch.setitem(undo_steps_of_chains.HINTS, title, said := Said(("A hint",)))
-    unwrapped.ui.key("F9")
-    unwrapped.ui.wait(3, redraw=True)
-    assert said.was_shown
-    dismiss(unwrapped.ui)
-    assert seams(unwrapped.obj) == after
-
-
-class Said(tuple):
-    """Hints that know whether they were shown."""
-
-    was_shown = False
-
-    def __iter__(self) -> Iterator[str]:
-        self.was_shown = True
-        return super().__iter__()

@@ -13,8 +13,8 @@ import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
 from seamwire.core.drawing.seed_drag import SeedDrag
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.drawing.wire import WireGesture
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.operators.chain_state import Stage
 from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited

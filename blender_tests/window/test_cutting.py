@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw, shows, undo_steps
 from scene import chain, changing, seams, snapshot
-from seamwire.core.sketch.picture import Role
 from seamwire.core.network.picks import FacePoint
+from seamwire.core.sketch.picture import Role
 from seamwire.mesh import cut
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings
@@ -161,7 +161,7 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
         return found
 
     monkeypatch.setattr(Notices, "take", note)
-    failing = {"before": (cut, "plan"), "within": (cut, "mark_seams"), "after": (ObjectSession, "take_over")}
+    failing = {"before": (cut, "plan"), "within": (cut, "Cut"), "after": (ObjectSession, "take_over")}
     monkeypatch.setattr(*failing[where], fail)
     before = snapshot(cutting.obj, with_seams=False)
     session, ui = cutting.start(), cutting.ui
@@ -284,7 +284,7 @@ def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     """Draw a wire with the tool and let it be cut."""
     cutting.choose()
     session = draw(cutting, start, end)
-    assert not cutting.running, str(session.reason)
+    assert not cutting.running, session.reason
     assert agree(cutting.obj)
 
 

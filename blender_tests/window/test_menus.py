@@ -4,12 +4,15 @@
 from collections.abc import Callable
 from types import SimpleNamespace
 
+import addon_utils
 import bpy
 import pytest
 from desk import Desk
-from seamwire.networks import network_operators as networks
+from scene import ADDON
 from seamwire.ui import menus
+from seamwire_networks import network_operators as networks
 
+NETWORKS = f"{ADDON}_networks"
 TOP = [
     "mesh.seamwire_choose_tool",
     "mesh.seamwire_suggest",
@@ -20,6 +23,14 @@ TOP = [
     "VIEW3D_MT_seamwire_islands",
     "VIEW3D_MT_seamwire_views",
 ]
+NETWORK = [
+    "mesh.seamwire_take_over",
+    "mesh.seamwire_repeat",
+    "mesh.seamwire_transfer",
+    "mesh.seamwire_load_network",
+    "mesh.seamwire_save_network",
+]
+"""With the entries of Seamwire Networks."""
 BLENDERS = {
     "VIEW3D_MT_edit_mesh_edges": ["VIEW3D_MT_seamwire"],
     "VIEW3D_MT_uv_map": ["VIEW3D_MT_seamwire"],
@@ -60,8 +71,24 @@ def test_each_entry_of_our_menus_is_an_operator_a_menu_or_a_setting(
         if isinstance(entry, str) and "." in entry:
             group, operator = entry.split(".")
             assert getattr(getattr(bpy.ops, group), operator).get_rna_type(), entry
-    if name == "VIEW3D_MT_seamwire":
-        assert drawn == TOP
+    expected = {"VIEW3D_MT_seamwire": TOP, "VIEW3D_MT_seamwire_network": NETWORK}
+    assert drawn == expected.get(name, drawn)
+
+
+@pytest.mark.every_blender
+def test_without_seamwire_networks_its_menu_tells_to_enable_it(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[str] = []
+    addon_utils.disable(NETWORKS)
+    try:
+        menu = bpy.types.VIEW3D_MT_seamwire_network
+        monkeypatch.setattr(menu, "draw", noting(menu.draw, told))
+        open_menu(desk, "VIEW3D_MT_seamwire_network", told)
+        assert told[:1] == NETWORK[:1]
+        assert "enable Seamwire Networks" in told[1]
+        assert len(told) == 2
+    finally:
+        monkeypatch.undo()
+        addon_utils.enable(NETWORKS)
 
 
 def noting(draw: Callable, drawn: list[str]) -> Callable:
@@ -78,10 +105,12 @@ def noting(draw: Callable, drawn: list[str]) -> Callable:
 
         def __getattr__(self, kind: str) -> object:
             method = getattr(self.layout, kind)
+            if not callable(method):
+                return method
 
             def call(*arguments: str, **options: object) -> object:
                 result = method(*arguments, **options)
-                drawn.extend(arguments[:1])
+                drawn.extend(arguments[:1] or ([options["text"]] if kind == "label" else []))
                 return result
 
             return call

@@ -12,7 +12,6 @@ from scene import chain, seams, snapshot
 from seamwire.core.sketch.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import keymaps, steps
-from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 from seamwire.words import corner
 
@@ -213,7 +212,7 @@ def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
         for vertex in (10, 16, 70):
             ui.click(desk.at(vertex))
         ui.wait_until(lambda: len(session.wires) == 2)
-        shown = status_bar.hints(status_bar.status_of(desk.chain))
+        shown = desk.chain.hints()
         assert ("EVENT_J", "Close") in shown
         assert not any(icon == "EVENT_C" for icon, _ in shown)
         assert ("J", "Close Chain") in desk.chain.keys.groups()["Change the Wire"], "in the table of keys too"

@@ -9,10 +9,10 @@ import bpy
 import pytest
 from desk import Desk, draw
 from seamwire.core.drawing.cursor import Cursor
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.islands.stretch import Stretch
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -89,9 +89,7 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     ui.wait_until(lambda: not session.computing and settled())
     ui.wait(2)
     told: list[float] = []
-    monkeypatch.setattr(
-        "seamwire.operators.chain.status_makers", [lambda chain: told.append(chain.session.progress)]
-    )
+    monkeypatch.setattr("seamwire.operators.chain.status_drawer", lambda _hints: told.append(session.progress))
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
         monkeypatch.setattr(session.drawing, "progress", percent / 100.0)

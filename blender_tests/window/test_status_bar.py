@@ -5,6 +5,7 @@ import bpy
 import pytest
 from desk import Desk, choose
 from seamwire.mesh.versions import IS_OLD
+from seamwire.operators import chain_status
 from seamwire.ui import status_bar
 
 pytestmark = pytest.mark.every_blender
@@ -14,13 +15,14 @@ pytestmark = pytest.mark.every_blender
 def shown(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The hints that were drawn last."""
     texts: list[str] = []
-    draw = status_bar._draw_hints
+    draw = chain_status.draw_hints
 
     def draw_and_note(header: bpy.types.Header, hints: list[tuple[str, str]]) -> None:
         texts[:] = [text for _, text in hints]
         draw(header, hints)
 
-    monkeypatch.setattr(status_bar, "_draw_hints", draw_and_note)
+    for module in (chain_status, status_bar):
+        monkeypatch.setattr(module, "draw_hints", draw_and_note)
     return texts
 
 

@@ -166,7 +166,7 @@ def waiting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Waiting]:
 def status(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The texts on plans in the status bar."""
     said: list[str] = []
-    look = suggest_live.LiveParts._look
+    look = suggest_live.LiveParts.look
 
     def noted(self: object) -> str:
         said.append(look(self))

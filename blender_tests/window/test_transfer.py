@@ -7,15 +7,16 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+import addon_utils
 import bpy
 import pytest
 import stored
 import ui as driver
 from desk import leave, undo_steps
-from scene import add_suzanne, changing, edit, head, mark_wires, seams, snapshot
-from seamwire.networks.core.repeats import Repeats
-from seamwire.networks.core.tracing import Tracing
+from scene import ADDON, add_suzanne, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.operators.steps import running
+from seamwire_networks.repeats import Repeats
+from seamwire_networks.transfer import Tracing
 
 
 class Gate:
@@ -109,6 +110,23 @@ def test_escape_ends_the_work_and_leaves_the_mesh_as_it_was(
     ui.wait(5)
     assert snapshot(target) == before
     assert undo_steps(capfd) == steps
+
+
+@pytest.mark.parametrize("addon", [ADDON, f"{ADDON}_networks"])
+def test_disabled_meanwhile_it_ends_and_leaves_the_mesh_as_it_was(
+    ui: driver.Ui, target: bpy.types.Object, gate: Gate, addon: str
+) -> None:
+    before = snapshot(target)
+    begin(ui, gate)
+    addon_utils.disable(addon)
+    try:
+        assert not running
+        assert not hasattr(bpy.types, "MESH_OT_seamwire_transfer")
+        gate.open()
+        ui.wait(5)
+        assert snapshot(target) == before
+    finally:
+        addon_utils.enable(addon)
 
 
 @pytest.mark.smoke

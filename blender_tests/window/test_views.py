@@ -13,7 +13,6 @@ from desk import WHITE, Desk, choose, draw, leave, shows
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 
 ROW = chain(*range(36, 45))
@@ -37,7 +36,7 @@ def test_at_a_scale_of_one_and_three_quarters_it_draws_and_says_first_what_matte
         scaled.click(desk.at(36))
         scaled.move(desk.at(44))
         scaled.wait_until(lambda: session.picture.active is not None)
-        hints = [text for _, text in status_bar.hints(status_bar.status_of(desk.chain)) if "Computing" not in text]
+        hints = [text for _, text in desk.chain.hints() if "Computing" not in text]
         assert "Keep Wire" in hints[0]
         assert "End Chain" in " ".join(hints[1:3])
         scaled.click(desk.at(44))

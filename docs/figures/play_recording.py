@@ -33,7 +33,7 @@ sys.path += map(str, (ROOT / ".venv/lib").glob("python*/site-packages"))
 import bpy
 import numpy as np
 import ui as driver
-from enabling import enable_addon
+from enabling import enable_addons
 from figure_models import read
 from figure_stage import turn
 from film_hand import session
@@ -312,6 +312,6 @@ def main(model: str, recording: str, folder: str) -> None:
     player.save()
 
 
-enable_addon()
+enable_addons()
 arguments = sys.argv[sys.argv.index("--") + 1 :]
 play_strictly(lambda: main(*arguments))

@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests"), str(Path(__file__).parent)]
 
-from enabling import enable_addon
+from enabling import enable_addons
 from film_figure import character, figure_pictures, limbs
 from film_guide import cut, guide, install, lab, looks, stretch, tool, views
 from film_hand import Film
@@ -28,7 +28,7 @@ from film_prop import wheel
 from film_stage import show_first_steps
 from turns import play_strictly
 
-enable_addon()
+enable_addons()
 show_first_steps(False)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
 parts = (

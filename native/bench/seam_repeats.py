@@ -21,7 +21,7 @@ from scipy.sparse.csgraph import connected_components
 from seams_engine import fan_triangles, polygon_edges
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.networks.core.repeats import Repeats  # this knows no Blender
+from seamwire_networks.repeats import Repeats  # this knows no Blender
 
 
 def main() -> None:

@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "docs/figures"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from figure_models import read
 from seamwire.core.base.geometry import barycentric, nearest_on_segments  # these know no Blender
-from seamwire.core.seams.slide_plan import places, plan
+from seamwire.core.seams.slide_plan import SlidFaces, places, plan
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -44,7 +44,7 @@ def main() -> None:
         sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         edges = np.unique(sides, axis=0)
         unit = float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
-        mesh = _Mesh(points, triangles)
+        mesh = SlidFaces(points, triangles, np.arange(len(triangles)), dict(enumerate(triangles.tolist())))
         surface = sw.Surface(points, triangles, edges)
         embedding = sw.embed(surface, sw.feature_metric(surface, sw.principal_curvatures(surface)))
         centers = KDTree(points[triangles].mean(axis=1))
@@ -77,27 +77,6 @@ def main() -> None:
             f"{np.max(rows, axis=0)[4]:.2f}, in the mean of wires {np.mean(rows, axis=0)[4]:.2f}; {1e3 * spent / len(rows):.0f} ms",
             flush=True,
         )
-
-
-class _Mesh:
-    """A mesh of triangles, as `plan` sees it."""
-
-    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
-        self.points, self.triangles = points, triangles
-        self._order = np.argsort(triangles.ravel(), kind="stable")
-        self._begin = np.searchsorted(triangles.ravel()[self._order], np.arange(len(points) + 1))
-
-    def polygons_at(self, vertex: int) -> list[int]:
-        return (self._order[self._begin[vertex] : self._begin[vertex + 1]] // 3).tolist()
-
-    def rows_of(self, polygon: int) -> list[int]:
-        return [polygon]
-
-    def corners(self, polygon: int) -> list[int]:
-        return self.triangles[polygon].tolist()
-
-    def is_edge(self, _a: int, _b: int) -> bool:
-        return True
 
 
 def _along(chain: NDArray[np.float64]) -> NDArray[np.float64]:

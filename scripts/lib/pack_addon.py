@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packs both add-ons, the tool with wheels of its compiled part: ``pack_addon.py --platform PLATFORM --output FOLDER WHEEL...``.
+"""Packs all add-ons, the tool with wheels of its compiled part: ``pack_addon.py --platform PLATFORM --output FOLDER WHEEL...``.
 
-Makes FOLDER/seamwire-VERSION-PLATFORM.zip and FOLDER/seamwire_lab-VERSION.zip, each with one folder at its top. So they install as
-extensions in Blender 4.2 and later, and as add-ons in Blender 3.4 and later. There the tool unpacks the wheel that fits by itself.
+Makes FOLDER/seamwire-VERSION-PLATFORM.zip, and FOLDER/NAME-VERSION.zip of the other add-ons, each with one folder at its top. So they
+install as extensions in Blender 4.2 and later, and as add-ons in Blender 3.4 and later. There the tool unpacks the wheel that fits by
+itself.
 """
 
 import argparse
@@ -13,7 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 ADDON = ROOT / "addon" / "seamwire"
-LAB = ROOT / "addon" / "seamwire_lab"
+OTHERS = (ROOT / "addon" / "seamwire_lab", ROOT / "addon" / "seamwire_networks")
+"""The add-ons without a compiled part."""
 LEFT_OUT = {"__pycache__", "_native", "blender_manifest.toml"}
 
 
@@ -36,7 +38,7 @@ def versions() -> dict[str, str]:
             r"^project\(seamwire VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"), re.M
         ),
     }
-    for folder in (ADDON, LAB):
+    for folder in (ADDON, *OTHERS):
         manifest, code = ((folder / name).read_text("utf-8") for name in ("blender_manifest.toml", "__init__.py"))
         found[f"{folder.name}/blender_manifest.toml"] = re.search(r'^version = "(.+)"$', manifest, re.M)
         found[f"{folder.name}/__init__.py"] = re.search(r'"version": \((\d+), (\d+), (\d+)\)', code)
@@ -65,12 +67,12 @@ def add_folder(archive: zipfile.ZipFile, folder: Path) -> None:
     archive.write(ROOT / "LICENSE", f"{folder.name}/LICENSE")
 
 
-def pack_lab(output: Path) -> Path:
-    """Write the package of Seamwire Lab and return its path."""
-    path = output / f"seamwire_lab-{one_version()}.zip"
+def pack_other(output: Path, folder: Path) -> Path:
+    """Write the package of an add-on for all systems and return its path."""
+    path = output / f"{folder.name}-{one_version()}.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        add_folder(archive, LAB)
-        archive.write(LAB / "blender_manifest.toml", "seamwire_lab/blender_manifest.toml")
+        add_folder(archive, folder)
+        archive.write(folder / "blender_manifest.toml", f"{folder.name}/blender_manifest.toml")
     return path
 
 
@@ -107,7 +109,8 @@ def main() -> None:
     if not wheels:
         sys.exit("no wheel to pack")
     print(pack(arguments.output, sorted(wheels), arguments.platform))
-    print(pack_lab(arguments.output))
+    for folder in OTHERS:
+        print(pack_other(arguments.output, folder))
 
 
 if __name__ == "__main__":

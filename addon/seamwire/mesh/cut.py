@@ -18,23 +18,18 @@ import numpy as np
 from mathutils import Vector
 
 from ..core.base import native
-from ..core.base.messages import Refused
-from ..core.network.picks import FacePoint, vertices_of
-from .cut_joins import cut_layers, holding, is_left_behind, join, mark_seams
-from .unwrap import UNWRAPPED
+from ..core.base.refused import Refused
+from ..core.network.picks import FacePoint
 
 if TYPE_CHECKING:
     from seamwire_core import CutCurve, CutPlan
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.network.picks import Edge, Pick
+    from ..core.network.picks import Edge
     from .edit_mesh import Cage
 
     Node = tuple[tuple[int, ...], tuple[float, ...]]
     """Vertices, and the weight of each."""
-
-_RINGS = 3
-"""How far one looks around a pick once vertices are found that stay: those of the face that it lies in may not be the first."""
 
 
 class CutError(Refused):
@@ -53,60 +48,20 @@ class Cut:
     left_out: int = 0  # how many wires and mirror images were not cut, because they do not run over the mesh
 
 
-class PickedPlaces:
-    """Where picks on visible faces are, whatever cuts are taken back afterwards; other parts of the mesh may lie at the same places."""
-
-    def __init__(self, cage: Cage, picks: Iterable[Pick]) -> None:
-        bm = cage.number_bmesh()
-        # First of all: a new layer makes what was found before invalid.
-        _add_unwrapped(bm)
-        of_verts, _ = cut_layers(bm)
-        self._verts: dict[Pick, bmesh.types.BMVert] = {}
-        self._around: dict[Pick, list[bmesh.types.BMVert]] = {}
-        for pick in picks:
-            corners = [bm.verts[v] for v in (pick.corners if isinstance(pick, FacePoint) else vertices_of(pick))]
-            if isinstance(pick, int):
-                self._verts[pick] = corners[0]
-            self._around[pick] = _verts_that_stay(corners, of_verts)
-
-    def vertex(self, pick: Pick) -> int | None:
-        """Return the number of a vertex that is there still; None of one that is not, and of another pick."""
-        vert = self._verts.get(pick)
-        return vert.index if vert is not None and vert.is_valid else None
-
-    def faces(self, pick: Pick) -> list[int]:
-        """Return the visible faces that a pick may lie in."""
-        around = (face for vert in self._around[pick] if vert.is_valid for face in vert.link_faces)
-        return sorted({face.index for face in around if not face.hide})
-
-
-def _verts_that_stay(
-    verts: Iterable[bmesh.types.BMVert], of_verts: bmesh.types.BMLayerItem
-) -> list[bmesh.types.BMVert]:
-    """Return the vertices near some that no cut made."""
-    found = set(verts)
-    waiting, rings = list(found), _RINGS
-    while waiting and rings:
-        rings -= any(not vert[of_verts] for vert in found)
-        waiting = [vert for vert in {edge.other_vert(v) for v in waiting for edge in v.link_edges} if vert not in found]
-        found.update(waiting)
-    return [vert for vert in found if not vert[of_verts]]
-
-
 def plan(arrays: Arrays, curves: Sequence[CutCurve]) -> CutPlan:
     """Find what curves cut. Raises `CutError` if nothing is cut."""
     found = native.load().plan_cuts(arrays.points, arrays.triangles, arrays.polygons, curves)
     if not len(found.along) and not found.across:
         for _, vertex in found.left_out:
-            raise CutError("off-mesh-near", vertex=vertex)
-        raise CutError("no-wire-leaves-face")
+            raise CutError(f"A wire does not run over the mesh near vertex {vertex}")
+        raise CutError("Nothing to cut: every wire stays inside one face")
     return found
 
 
 def rehearse(cage: Cage, what: CutPlan) -> None:
     """Cut a copy of an edit mesh, so that an error in splitting edges and faces comes before anything is changed.
 
-    Taking cuts back, joining small islands and storing wires are not tried. The copy takes about 1 s for a million triangles.
+    Joining small islands and storing wires are not tried. The copy takes about 1 s for a million triangles.
     """
     bm = cage.number_bmesh().copy()
     try:
@@ -126,13 +81,11 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
     with _changing(cage):
         seams, seed_verts, uncut = _carry_out(bm, what, list(seeds))
         new = [edge for edge in seams if not edge.seam]
-        mark_seams(bm, seams)
-        # The new cuts may lead on from where edges held the ends of other seams.
-        passed = {vert for edge in seams for vert in edge.verts}
-        join(bm, holding(bm, passed), passed)
+        for edge in seams:
+            edge.seam = True
         if crumb > 0.0:
-            join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
-            seams = [edge for edge in seams if edge.is_valid and edge.seam]
+            _join_crumbs(bm, new, crumb * sum(face.calc_area() for face in bm.faces))
+            seams = [edge for edge in seams if edge.seam]
     bm = cage.number_bmesh()
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
     # Those inside a face that could not be cut went.
@@ -155,8 +108,8 @@ def _carry_out(
     bm: bmesh.types.BMesh, what: CutPlan, seeds: Sequence[int | FacePoint]
 ) -> tuple[list[bmesh.types.BMEdge], dict[int | FacePoint, bmesh.types.BMVert], int]:
     """Cut, and return the edges along the cuts, the seeds, and how many faces could not be cut."""
-    # First of all: a new layer makes what was found before invalid.
-    of_verts, of_edges = cut_layers(bm)
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.ensure_lookup_table()
     nodes = _nodes(what)
     corners = {vertex: bm.verts[vertex] for vertices, _ in nodes for vertex in vertices}
     seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
@@ -175,15 +128,14 @@ def _carry_out(
     at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
     seed_verts |= {seed: vert_of[node] for seed, node in at_points.items() if node is not None}
     new = [vert for node, vert in vert_of.items() if len(nodes[node][0]) > 1]
-    for vert in new:
-        vert[of_verts] = 1
     seams = list(_edges_along(bm, what, vert_of))
     node_of = {vert: nodes[node] for node, vert in vert_of.items()}
     uncut, left = 0, set()
+    made: set[bmesh.types.BMEdge] = set()
     for polygon, cuts, is_folded in what.across:
         face, rim = faces[polygon]
         ends = [(vert_of[one], vert_of[two]) for one, two in cuts.tolist()]
-        edges = _edges_between(bm, ends, of_edges)
+        edges = _edges_between(bm, ends, made)
         if is_folded or not _split(face, edges):
             between = {vert: node_of[vert] for vert in {*face.verts, *itertools.chain(*ends)} - {*rim}}
             with _drawn(face, rim, between, corners):
@@ -192,7 +144,7 @@ def _carry_out(
         uncut += bool(loose)
         left |= loose
         seams += [edge for edge in edges if edge not in loose]
-    _remove_loose(bm, [edge for edge in left if edge[of_edges]])
+    _remove_loose(bm, left & made)
     _spread_selection(bm, [vert for vert in new if vert.is_valid])
     return seams, seed_verts, uncut
 
@@ -211,7 +163,7 @@ def _edges_along(
     for one, two in what.along.tolist():
         edge = bm.edges.get((vert_of[one], vert_of[two]))
         if edge is None:
-            raise CutError("off-mesh-near", vertex=int(what.vertices[one, 0]))
+            raise CutError(f"A wire does not run over the mesh near vertex {int(what.vertices[one, 0])}")
         yield edge
 
 
@@ -236,37 +188,9 @@ def _spread_selection(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]
         bm.select_flush_mode()
 
 
-def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
-    """See that unwrapping can be told where faces were joined."""
-    if bm.loops.layers.uv and bm.edges.layers.int.get(UNWRAPPED) is None:
-        bm.edges.layers.int.new(UNWRAPPED)
-
-
-def left_behind(cage: Cage, edges: Iterable[Edge]) -> list[Edge]:
-    """Return those among some edges where a cut can be taken back, see `cut_joins.is_left_behind`."""
-    bm = cage.number_bmesh()
-    found = ((pair, bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]]))) for pair in edges)
-    return [pair for pair, edge in found if edge is not None and is_left_behind(bm, edge)]
-
-
-def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
-    """Join what cuts along some edges parted, see `cut_joins.join`, and return how many of these edges went.
-
-    Edges that hold ends of these cuts go too. Vertices, edges and faces have other numbers then.
-    """
-    bm = cage.number_bmesh()
-    with _changing(cage):
-        _add_unwrapped(bm)
-        cut_layers(bm)
-        own = [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None]
-        return join(bm, [*own, *holding(bm, {vert for edge in own for vert in edge.verts})])
-
-
-def _crumb_borders(
-    bm: bmesh.types.BMesh, cuts: Collection[bmesh.types.BMEdge], least: float
-) -> list[bmesh.types.BMEdge]:
-    """Let cuts be no seams, and return them, where they part islands of less than an area from one of more, over the longest border."""
-    own, large, gone = set(cuts), set(), []
+def _join_crumbs(bm: bmesh.types.BMesh, cuts: Collection[bmesh.types.BMEdge], least: float) -> None:
+    """Let cuts be no seams where they part islands of less than an area from one of more, over the longest border."""
+    own, large = set(cuts), set()
     waiting = [face for edge in cuts for face in edge.link_faces if not face.hide]
     while waiting:
         crumb = _crumb_at(waiting[-1], least, large)
@@ -282,8 +206,6 @@ def _crumb_borders(
         for edge in border:
             edge.seam = False
         own.difference_update(border)
-        gone += border
-    return gone
 
 
 def _crumb_at(face: bmesh.types.BMFace, least: float, large: set[bmesh.types.BMFace]) -> set[bmesh.types.BMFace]:
@@ -342,15 +264,15 @@ def _vert_inside(
 def _edges_between(
     bm: bmesh.types.BMesh,
     segments: Iterable[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
-    of_edges: bmesh.types.BMLayerItem,
+    made: set[bmesh.types.BMEdge],
 ) -> list[bmesh.types.BMEdge]:
-    """Return the edges between pairs of vertices; new ones belong to no face."""
+    """Return the edges between pairs of vertices. New ones belong to no face, and are added to `made`."""
     edges = []
     for segment in segments:
         edge = bm.edges.get(segment)
         if edge is None:
             edge = bm.edges.new(segment)
-            edge[of_edges] = 1
+            made.add(edge)
         edges.append(edge)
     return edges
 

@@ -58,11 +58,17 @@ def _numbered(bm: bmesh.types.BMesh) -> bmesh.types.BMesh:
 
 
 class Cage:
-    """The edit mesh of an object in edit mode, as long as its topology stays what it is."""
+    """The edit mesh of an object in edit mode, as long as its topology stays what it is. Outside edit mode, a copy that `write` stores."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self.data = obj.data
-        self._bm = edit_bmesh(obj.data)
+        self._is_edited = obj.mode == "EDIT"
+        if self._is_edited:
+            self._bm = edit_bmesh(obj.data)
+        else:
+            self._bm = bmesh.new()
+            self._bm.from_mesh(obj.data)
+            _numbered(self._bm)
         self._counts = self._count()
 
     def number_bmesh(self) -> bmesh.types.BMesh:
@@ -74,7 +80,7 @@ class Cage:
 
     def intact(self) -> bool:
         """Whether the edit mesh is still there, with as many vertices, edges and faces as before."""
-        return self._bm.is_valid and self._count() == self._counts
+        return self._is_edited and self._bm.is_valid and self._count() == self._counts
 
     @property
     def vertex_count(self) -> int:
@@ -161,7 +167,10 @@ class Cage:
                 self.number_bmesh().edges.layers.int.remove(layer)
         if new or old or labels:
             _numbered(self._bm)  # a layer that comes or goes takes the numbers away
-            bmesh.update_edit_mesh(self.data, loop_triangles=False, destructive=False)
+            if self._is_edited:
+                bmesh.update_edit_mesh(self.data, loop_triangles=False, destructive=False)
+            else:
+                self._bm.to_mesh(self.data)
         return len(new), len(old)
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
@@ -192,68 +201,6 @@ def stored_labels(data: bpy.types.Mesh) -> list[int]:
 
 def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
     return bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]]))
-
-
-class StoredMesh:
-    """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended."""
-
-    def __init__(self, data: bpy.types.Mesh) -> None:
-        self.data = data
-        self.vertex_count = len(data.vertices)
-        self._pairs = np.sort(column(data.edges, "vertices", np.int32, 2), axis=1)
-        self._row_of: dict[tuple[int, int], int] = {}
-
-    def intact(self) -> bool:
-        """Whether it can be drawn on: only an edit mesh can."""
-        return False
-
-    def _row(self, pair: tuple[int, int]) -> int | None:
-        if not self._row_of:
-            self._row_of = {tuple(own): row for row, own in enumerate(self._pairs.tolist())}
-        return self._row_of.get((min(pair), max(pair)))
-
-    def is_seam(self, pair: tuple[int, int]) -> bool:
-        """As `Cage.is_seam`."""
-        row = self._row(pair)
-        return row is not None and self.data.edges[row].use_seam
-
-    def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
-        """As `Cage.labels`."""
-        attribute = self.data.attributes.get(LABELS)
-        if attribute is None:
-            return EdgeLabels.none()
-        labels = column(attribute.data, "value", np.int32)
-        rows = np.flatnonzero(labels)
-        seams, hidden = (column(self.data.edges, name, np.bool_)[rows] for name in ("use_seam", "hide"))
-        return EdgeLabels(self._pairs[rows].astype(np.int64), labels[rows].astype(np.int64), seams, hidden)
-
-    def write(
-        self,
-        mark: Iterable[tuple[int, int]],
-        clear: Iterable[tuple[int, int]] = (),
-        labels: Mapping[tuple[int, int], int] = MappingProxyType({}),
-    ) -> tuple[int, int]:
-        """As `Cage.write`."""
-        mark, clear = list(mark), list(clear)
-        rows = {pair: self._row(pair) for pair in (*mark, *clear, *labels)}
-        gone = [pair for pair, row in rows.items() if row is None]
-        if gone:
-            raise ValueError(f"There is no edge {gone[0][0]}-{gone[0][1]} to mark")
-        edges = self.data.edges
-        new = [pair for pair in mark if not edges[rows[pair]].use_seam]
-        old = [pair for pair in clear if edges[rows[pair]].use_seam]
-        for pairs, seam in ((new, True), (old, False)):
-            for pair in pairs:
-                edges[rows[pair]].use_seam = seam
-        if labels:
-            attributes = self.data.attributes
-            attribute = attributes.get(LABELS) or attributes.new(LABELS, "INT", "EDGE")
-            for pair, label in labels.items():
-                attribute.data[rows[pair]].value = label
-            if not column(attribute.data, "value", np.int32).any():
-                attributes.remove(attribute)
-        self.data.update()
-        return len(new), len(old)
 
 
 def read(obj: bpy.types.Object) -> Arrays:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a drawing asks of the mesh, done: wires slid onto, cut into faces, and cuts taken back.
+"""What a drawing asks of the mesh, done: wires slid onto, and cut into faces.
 
 Each function takes the session of an object and returns the session that goes on: afterwards vertices may have other numbers.
 """
@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.base import native
-from ..core.base.messages import message_of
-from ..core.network.picks import FacePoint, vertices_of
+from ..core.network.picks import FacePoint
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide_plan import plan as plan_slide
-from ..terms.choices import FINISHES
 from ..words.reports import count, not_cut
 from . import cut as mesh_cut
 from . import slide as mesh_slide
@@ -25,16 +23,14 @@ from .edit_mesh import restored_after_errors
 from .object_session import ObjectSession
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
-    from numpy.typing import NDArray
     from seamwire_core import CutCurve, CutPlan
 
-    from ..core.sketch.change import Change
-    from ..core.network.network import Drawn
-    from ..core.network.picks import Edge, Pick
+    from ..core.network.picks import Edge
     from ..core.network.wires import Wire
     from ..core.offers.surface_loops import TakenCut
+    from ..core.sketch.change import Change
     from ..terms.choices import Finish
     from .cut import Cut
 
@@ -43,73 +39,68 @@ if TYPE_CHECKING:
 class Finished:
     """What became of wires across the surface when their chain ended."""
 
-    reports: tuple[str, ...] = ()  # what each of `FINISHERS` has done
+    slid: str = ""  # what was slid
     cut: Cut | None = None
     problem: str = ""  # why nothing was cut
-    taken_back: int = 0  # how many edges of former cuts went, where nothing was cut in their place
 
     @property
     def text(self) -> str:
         """The report; an empty text if nothing was done."""
-        parts = list(self.reports)
+        parts = [self.slid] if self.slid else []
         if self.cut is not None:
             if self.cut.wires:
                 parts.append(f"{count(self.cut.wires, 'wire')} cut, {count(len(self.cut.edges), 'edge')} marked")
             parts += not_cut(self.cut.uncut, self.cut.left_out)
         if self.problem:
             parts.append(f"not cut: {self.problem}")
-        if self.taken_back:
-            parts.append("cut taken back")
         return ", ".join(parts)
 
 
-def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Finished]:
-    """Let the mesh do what a change asks, once it has the wires: finish them, and take back cuts that are wires' no more.
+def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished]:
+    """Let the mesh do what a change asks, once it has the wires: finish them.
 
-    The session of the mesh ends if anything is done. Returns the session that goes on, or None if the mesh must be read again for one, and
-    the counts of everything that was done. After an unexpected error the mesh is restored, with the wires along edges.
+    The session of the mesh ends if anything is done. Returns the session that goes on, and the counts of everything that was done. After an
+    unexpected error the mesh is restored, with the wires along edges.
     """
-    if not any(map(change.finishes, mesh.session.wires)) and not _left_cuts(mesh, change.before):
+    if not any(map(change.finishes, mesh.session.wires)):
         return mesh, Finished()
     with restored_after_errors(mesh.obj):
         return _apply(mesh, change)
 
 
-def _apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Finished]:
+def _apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished]:
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
     drawn = {wire.vertices: wire.finish for wire in wires}
-    reports = []
-    for name in FINISHERS:
-        own = [wire for wire in wires if wire.finish == name]
-        if own:
-            mesh, moved = move(mesh, own, name)
-            reports.append(
-                f"{FINISHES[name].name}: {count(len(own), 'wire')}, {count(moved, 'vertex', 'vertices')} moved"
-            )
-            wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
+    finished = Finished()
+    slid = [wire for wire in wires if wire.finish == "SLIDE"]
+    if slid:
+        mesh, moved = move(mesh, slid, "SLIDE")
+        finished = Finished(f"Slide: {count(len(slid), 'wire')}, {count(moved, 'vertex', 'vertices')} moved")
+        wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
+    # Cuts come last, because they renumber.
     cuts = [wire for wire in wires if wire.cuts]
-    finished = Finished(tuple(reports))
     if not cuts:
-        left = _left_cuts(mesh, change.before)
-        taken_back = mesh_cut.take_back(mesh.cage, left) if left else 0
-        return None if taken_back else mesh, replace(finished, taken_back=taken_back)
+        return mesh, finished
     try:
-        mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True, before=change.before)
+        mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True)
     except CutError as error:
         return mesh, replace(finished, problem=str(error))
     return mesh, replace(finished, cut=done)
 
 
-def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
+def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires, if that is the finish. The mesh has these wires.
 
     Returns the session that goes on, and the number of moved vertices.
     """
+    if not wires or finish != "SLIDE":
+        return mesh, 0
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}
-    stiff = mesh_slide.stiff_vertices(mesh.cage, {vertex for chain, _ in courses for vertex in chain}, seams)
-    moves = plan_slide(mesh_slide.CageFaces(mesh.cage, mesh.arrays), courses, stiff)
+    vertices = {vertex for chain, _ in courses for vertex in chain}
+    stiff = mesh_slide.stiff_vertices(mesh.cage, vertices, seams)
+    moves = plan_slide(mesh_slide.faces_at(mesh.cage, mesh.arrays, vertices), courses, stiff)
     if not moves:
         return mesh, 0
     mesh_slide.carry_out(mesh.obj, mesh.cage, moves)
@@ -125,19 +116,6 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
     _go_on_with(after, mesh.session.offering.cuts.taken(mesh.session.network))
     after.write(after.plan())
     return after, len(moves)
-
-
-FINISHERS: Mapping[Finish, Callable[[ObjectSession, Collection[Wire]], tuple[ObjectSession, int]]] = {"SLIDE": slide}
-"""Functions that finish wires which the mesh has as seams along the nearest edges. Each may move vertices, and does not renumber them.
-
-They return the session that goes on, and the number of moved vertices. Marking the nearest edges needs no function. Cuts come last,
-because they renumber.
-"""
-
-
-def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
-    """Finish kept wires in a way that does not cut. Returns the session that goes on, and the number of moved vertices."""
-    return FINISHERS[finish](mesh, wires) if wires and finish in FINISHERS else (mesh, 0)
 
 
 def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
@@ -161,8 +139,6 @@ def cut(
     plan: CutPlan,
     wires: Collection[Wire],
     kept: bool = False,
-    before: Drawn | None = None,
-    taken: Collection[TakenCut] | None = None,
     crumb: float = 0.0,
 ) -> tuple[ObjectSession, Cut]:
     """Cut the mesh as `plan_cut` has planned for these wires, and return the session that goes on.
@@ -174,44 +150,16 @@ def cut(
     ----------
     kept
         Whether the mesh has these wires already: their snapped edges cease to be seams.
-    before
-        A network that the mesh had: what wires of it were cut along that are there no more is taken back first.
-    taken
-        The closed cuts that are among these wires; None: those of the session.
     crumb
         The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
-
-    Raises
-    ------
-    CutError
-        If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
     """
-    taken = mesh.session.offering.cuts.taken(mesh.session.network) if taken is None else taken
+    taken = mesh.session.offering.cuts.taken(mesh.session.network)
     skipped = [number for number, _ in plan.left_out if number < len(wires)]
     wires = [wire for number, wire in enumerate(wires) if number not in skipped]
-    images = [replace(image, mirror=()) for wire in wires for image in mesh.session.mirrored(wire, curves=True)]
     if kept:
         for wire in wires:
             mesh.session.drop(wire)
         mesh.write(mesh.plan())
-    left = [] if before is None else _left_cuts(mesh, before)
-    if left:
-        # Edges of images too, because there is no chain of edges to mirror yet.
-        both = (*wires, *images)
-        places = mesh_cut.PickedPlaces(mesh.cage, {end for wire in both for end in (wire.start, wire.end)})
-        mesh_cut.take_back(mesh.cage, left)
-        after = ObjectSession(mesh.obj)
-        placed: list[Wire] = []
-        try:
-            placed = _placed(after, both, places)
-            again = plan_cut(after, placed)
-        except ValueError as error:
-            _draw_again(after, placed[: len(wires)])
-            raise CutError("cut-taken-back", why=message_of(error)) from error
-        missing = [placed[number] for number, _ in again.left_out if number < len(wires)]
-        _draw_again(after, missing)
-        after, done = cut(after, again, placed, taken=taken)
-        return after, replace(done, wires=len(wires) - len(missing), left_out=len(skipped) + done.left_out)
     seeds = {end for wire in wires for end in (wire.start, wire.end)}
     done = mesh_cut.carry_out(mesh.cage, plan, seeds, crumb)
     after = ObjectSession(mesh.obj)
@@ -226,43 +174,6 @@ def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
     """Let closed cuts that were taken before the mesh was changed be bent on it."""
     own = (each.of(mesh.session.network) for each in taken)
     mesh.session.offering.cuts.recall(each for each in own if each is not None)
-
-
-def _left_cuts(mesh: ObjectSession, before: Drawn) -> list[Edge]:
-    """Return the edges that wires of a network ran along where a cut can be taken back. Other wires may have been cut there."""
-    return mesh_cut.left_behind(mesh.cage, sorted({edge for wire in before.wires for edge in wire.claims()}))
-
-
-def _placed(mesh: ObjectSession, wires: Iterable[Wire], places: mesh_cut.PickedPlaces) -> list[Wire]:
-    """Return wires across a mesh from which cuts were taken back, the same surface, as wires across this mesh."""
-
-    def seed_at(pick: Pick, place: NDArray[np.float64]) -> int | FacePoint:
-        vertex = places.vertex(pick)
-        if vertex is not None:
-            return vertex
-        return mesh.finder(places.faces(pick))((mesh.arrays.to_object @ place).tolist())
-
-    placed = []
-    for wire in wires:
-        start, end = seed_at(wire.start, wire.points[0]), seed_at(wire.end, wire.points[-1])
-        vertices = (*vertices_of(start), *vertices_of(end))
-        placed.append(wire.changed(vertices=vertices, start=start, end=end, faces=None, images=()))
-    return placed
-
-
-def _draw_again(mesh: ObjectSession, wires: Collection[Wire]) -> None:
-    """Draw wires across the surface once more between their seeds, snapped to edges, because their former edges may be gone."""
-    if not wires:
-        return
-    session = mesh.session
-    for wire in wires:
-        options = replace(session.options, along="SURFACE", finish=wire.finish, mirror=wire.mirror)
-        session.follow(replace(options, strength_surface=wire.strength) if wire.strength else options)
-        for seed in (wire.start, wire.end):
-            session.click(seed)
-            session.wait()
-        session.end_chain()
-    mesh.write(mesh.plan())
 
 
 def _cut_wires(

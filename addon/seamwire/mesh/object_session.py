@@ -13,13 +13,12 @@ import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.sketch.change import Change
-from ..core.sketch.sketch import Sketch
 from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.surface_loops import CutMemory
 from ..core.seams import placed_edges
+from ..core.sketch.sketch import Sketch
 from ..core.solver.solver import LiveMaker
 from ..core.storage import serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
@@ -30,7 +29,7 @@ from . import edit_mesh
 from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -112,20 +111,19 @@ class ObjectSession:
 
     def __init__(self, obj: bpy.types.Object, options: Options | None = None) -> None:
         self.obj = obj
-        self.cage: edit_mesh.Cage | edit_mesh.StoredMesh
-        self.cage = edit_mesh.Cage(obj) if obj.mode == "EDIT" else edit_mesh.StoredMesh(obj.data)
+        self.cage = edit_mesh.Cage(obj)
         self.arrays = edit_mesh.read(obj)
         self.make_live = LiveMaker(self.arrays)
         self.session = Sketch(
-                self.make_live,
-                self.arrays.points,
-                options or Options(mirror=mirror_axes(obj.data)),
-                edges=self.arrays.edges,
-                to_object=self.arrays.to_object,
-                triangles=self.arrays.triangles,
-                topology=obj.data.use_mirror_topology,
-                make_parts=self.make_live.part_finder,
-            )
+            self.make_live,
+            self.arrays.points,
+            options or Options(mirror=mirror_axes(obj.data)),
+            edges=self.arrays.edges,
+            to_object=self.arrays.to_object,
+            triangles=self.arrays.triangles,
+            topology=obj.data.use_mirror_topology,
+            make_parts=self.make_live.part_finder,
+        )
         self.notices = Notices()  # problems with the wires that are stored with the mesh
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None  # the axes of its symmetry; None while they are not known
@@ -227,46 +225,37 @@ class ObjectSession:
         session.follow(replace(session.options, mirror=mirror_axes(self.cage.data)))
         return True
 
-    def follow_change(self, obj: bpy.types.Object, before: Drawn) -> Drawn | None:
-        """Read the object's mesh again while wires are drawn, and keep what was done since.
+    def rebind(self, obj: bpy.types.Object) -> bool:
+        """Read the object's mesh again while wires are drawn. Return whether it is as it was read or written last.
 
-        `before` is the network that the mesh has; what differs from it was drawn or changed since. Returns `before`, or the other network
-        that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
-        left edit mode. They can be written even then, if their vertices have the same numbers. Afterwards the mesh is read anew.
+        If it is not, the chain must end. Its wires can still be written if their vertices have the same numbers.
         """
         self.obj = obj
-        editing = obj.mode == "EDIT"
-        self.cage = edit_mesh.Cage(obj) if editing else edit_mesh.StoredMesh(obj.data)
+        self.cage = edit_mesh.Cage(obj)
         has_others = self.cage.vertex_count != len(self.arrays.points)
         self._renumbered = has_others and not self._has_same_numbers()
         known, self._labels = self._labels, self.cage.labels()
         self._outdated = True
-        if not editing or has_others:
-            return None
+        if obj.mode != "EDIT" or has_others:
+            return False
         try:
             arrays = edit_mesh.read(obj)
         except ValueError:
-            return None
+            return False
         if not arrays.same_as(self.arrays):
-            return None
+            return False
         self._outdated = False
-        if all(np.array_equal(getattr(self._labels, name), getattr(known, name)) for name in ("pairs", "labels")):
-            self._set_seams(arrays.seams, self._labels)
-            return before
-        self.session.end_chain()
-        change = Change(before, self.session.network)
-        self._adopt(self._labels, arrays.seams)
-        found = self.session.network
-        self.session.adopt(change.on(found), self.plain_seams)
-        return found
+        before, now = (np.unique(np.sort(seams, axis=1), axis=0) for seams in (self.arrays.seams, arrays.seams))
+        self._set_seams(arrays.seams, self._labels)
+        return self._labels.same_as(known) and np.array_equal(before, now)
 
     def _has_same_numbers(self) -> bool:
-        """Return whether what is drawn finds its vertices where they were, in an edit mesh with more or fewer vertices."""
+        """Return whether what is drawn finds its vertices where they were, in a mesh with more or fewer vertices."""
         network = self.session.network
         of_wires = (vertex for wire in network.wires for edge in wire.claims() for vertex in edge)
         of_strokes = (vertex for stroke in network.strokes for vertex in stroke.corners.reshape(-1).tolist())
         used = sorted({*of_wires, *of_strokes})
-        if not isinstance(self.cage, edit_mesh.Cage) or (used and used[-1] >= self.cage.vertex_count):
+        if used and used[-1] >= self.cage.vertex_count:
             return False
         verts = self.cage.number_bmesh().verts
         moved = np.array([verts[vertex].co for vertex in used]).reshape(-1, 3) - self.arrays.in_object[used]
@@ -366,9 +355,7 @@ class ObjectSession:
     def adopt(self, plan: wire_labels.Plan) -> None:
         """Let the session go on with the network that was written."""
         self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
-        _taken_cuts.keep(
-            self.session.offering.cuts.taken(self.session.network), self.session.network, self.places
-        )
+        _taken_cuts.keep(self.session.offering.cuts.taken(self.session.network), self.session.network, self.places)
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
@@ -390,28 +377,25 @@ class ObjectSession:
         session.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
-    def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
-        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates.
+    def finder(self) -> Callable[[Sequence[float]], FacePoint]:
+        """Return what finds the point of the visible surface that is nearest to a place in object coordinates.
 
         The function raises ValueError if no face is visible, or the place is too far away to be compared with them.
         """
         triangles, in_object = self.arrays.triangles, self.arrays.in_object
-        rows = np.arange(len(triangles))
-        if len(faces):
-            rows = rows[np.isin(self.arrays.polygons, list(faces))]
 
         @functools.cache
         def tree() -> seamwire_core.NearestPoints:
-            return native.load().NearestPoints(in_object, triangles[rows])
+            return native.load().NearestPoints(in_object, triangles)
 
         def find(place: Sequence[float]) -> FacePoint:
-            if not len(rows):
+            if not len(triangles):
                 raise ValueError("No face is visible: give vertices or edges instead of places")
             # In single precision, as Blender has places, larger ones have no distance.
             if not np.abs(np.array(place)).max() < 1e18:
                 raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
             (row,), (found,), _ = tree().find([place])
-            return FacePoint.at(found, rows[row], triangles, in_object)
+            return FacePoint.at(found, row, triangles, in_object)
 
         return find
 

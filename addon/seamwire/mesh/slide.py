@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
+from ..core.seams.slide_plan import SlidFaces
 from .versions import IS_OLD
 
 if TYPE_CHECKING:
@@ -29,27 +30,12 @@ _SAME = 6
 """Digits that corners around a vertex have in common where they hang together, as in one island of a UV map."""
 
 
-class CageFaces:
-    """The visible faces of an edit mesh, and the triangles that they were read as."""
-
-    def __init__(self, cage: Cage, arrays: Arrays) -> None:
-        self.points, self.triangles = arrays.points, arrays.triangles
-        self._polygons = arrays.polygons
-        self._bm = cage.number_bmesh()
-
-    def polygons_at(self, vertex: int) -> Sequence[int]:
-        """Return the visible faces around a vertex."""
-        return [face.index for face in self._bm.verts[vertex].link_faces if not face.hide]
-
-    def rows_of(self, polygon: int) -> Sequence[int]:
-        """Return the triangles of a face."""
-        # Of the same type, or all of the array would be converted.
-        bounds = np.array((polygon, polygon + 1), dtype=self._polygons.dtype)
-        return range(*np.searchsorted(self._polygons, bounds).tolist())
-
-    def corners(self, polygon: int) -> Sequence[int]:
-        """Return the vertices around a face."""
-        return [vert.index for vert in self._bm.faces[polygon].verts]
+def faces_at(cage: Cage, arrays: Arrays, vertices: Iterable[int]) -> SlidFaces:
+    """Return the visible faces at some vertices."""
+    verts = cage.number_bmesh().verts
+    faces = (face for vertex in vertices for face in verts[vertex].link_faces if not face.hide)
+    corners = {face.index: [vert.index for vert in face.verts] for face in faces}
+    return SlidFaces(arrays.points, arrays.triangles, arrays.polygons, corners)
 
 
 def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge]) -> set[int]:

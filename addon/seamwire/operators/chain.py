@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING, TypeVar
 import bpy
 import numpy as np
 
-from ..core.base.messages import NOTHING
-from ..core.sketch.change import Change
-from ..core.network.network import Drawn, edges_after
-from ..core.sketch.network import Snap
 from ..core.network.picks import FacePoint
+from ..core.sketch.change import Change
+from ..core.sketch.network import Snap, edges_after
 from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
+from ..words.hints import Status, hints
 from ..words.keys import DoubleClicks
 from ..words.notices import Notices
 from ..words.reports import count, summary
 from . import keymaps, undo_steps
 from .after_chain import unwrap_after_chain
-from .chain_state import TRANSITIONS, Cue, Stage, running, status_makers
+from .chain_state import TRANSITIONS, Cue, Stage, running
+from .chain_status import status_drawer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from ..core.sketch.sketch import Sketch
     from ..view.object_view import ObjectView
+    from ..words.hints import Hint
     from .drag_handlers import Hold
 
 _Result = TypeVar("_Result")
@@ -237,24 +238,18 @@ class Chain:
         return reason
 
     def _follow_mesh(self, reason: str = "") -> str:
-        """Follow a change of the mesh by others. Return why the chain cannot go on: because of the change, or for the given `reason`."""
+        """Return why the chain cannot go on: because others have changed the mesh, or for the given `reason`."""
         view = self.drawn_on
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
-        # Blender reports a change of the mesh. Others may mark seams.
         obj = view.obj if view.exists else bpy.data.objects.get(view.name)
         if obj is None:
             self.drawn_on, self._is_saved = None, False
             return "The object was removed"
-        seams, known = view.mesh.arrays.seams, self._before
-        found = view.mesh.follow_change(obj, known)
-        if found is None:
+        if not view.mesh.rebind(obj):
             return reason or "The mesh was changed"
-        after = view.mesh.arrays.seams
-        self._seams = edges_after(self._seams, edges_after(after, (), seams), edges_after(seams, (), after))
-        self._before = found
         view.renew()
-        return reason or ("" if found is known else "Undo has changed the wires of the mesh")
+        return reason
 
     # How it ends
 
@@ -326,8 +321,8 @@ class Chain:
             drawing = view.session.drawing
             for told in (drawing.failure, drawing.warning):
                 if told:
-                    self.notices.add("WARNING", str(told))
-            drawing.failure = drawing.warning = NOTHING
+                    self.notices.add("WARNING", told)
+            drawing.failure = drawing.warning = ""
         view = self.drawn_on
         change = None if view is None else Change(self._before, view.session.network)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
@@ -462,6 +457,13 @@ class Chain:
         """Let Blender send an event, because a mesh has changed. Nobody may move the mouse."""
         self._set_timer(True)
 
+    def hints(self) -> list[Hint]:
+        """Return what the status bar shows."""
+        symmetric = edited.front.mesh.symmetric
+        offers = symmetric if symmetric and not edited.front.options.mirror else ()
+        axes = "".join("XYZ"[axis] for axis in offers)
+        return hints(Status(self.session.picture, self.keys, self.notices.hint, axes))
+
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
@@ -481,8 +483,7 @@ class Chain:
             edited.show()
             edited.redraw()
         if self._shown != before:
-            for make in status_makers:
-                _set_status(make(self))
+            _set_status(status_drawer(self.hints()))
         # Last: what is shown may ask for more to be computed.
         self._set_timer(any(view.busy for view in edited.views()))
 

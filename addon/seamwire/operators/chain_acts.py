@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.sketch.picture import Role
 from ..core.sketch.network import Snap
+from ..core.sketch.picture import Role
 from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
@@ -22,9 +22,9 @@ from .keymaps import HELP_PANEL
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.sketch.sketch import Sketch
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
+    from ..core.sketch.sketch import Sketch
     from ..view.object_view import ObjectView
     from ..view.viewport import Place
     from ..words.keys import Bindings

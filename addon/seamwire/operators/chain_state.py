@@ -7,8 +7,6 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .chain import Chain
 
 
@@ -57,5 +55,3 @@ TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
 
 running: list[Chain] = []
 """The chain that is being drawn."""
-status_makers: list[Callable[[Chain], object]] = []
-"""Functions that return what draws the status bar for a chain. The interface adds one."""

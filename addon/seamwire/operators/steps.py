@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from contextlib import ExitStack
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import bpy
 
@@ -19,8 +19,10 @@ from .keymaps import is_for_blender, right_click_cancels, undoes
 from .other_windows import listen
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Sequence
+    from collections.abc import Callable, Generator
     from concurrent.futures import Future
+
+    from .suggest_live import LiveParts
 
     Progress = Callable[[float], bool]
     """Takes the finished fraction, and returns whether to continue."""
@@ -33,25 +35,6 @@ _PERIOD = 0.02
 """Seconds between two looks at whether a step has ended."""
 _CONSOLE_PERIOD = 5.0
 """Seconds between two lines about the progress."""
-
-
-class Hand(Protocol):
-    """The artist's influence on a step that runs.
-
-    Attributes
-    ----------
-    title, hints
-        Texts for the status bar. Without hints, Enter ends the step early.
-    is_over
-        Whether the step ends when its work has ended. Otherwise it waits for the artist.
-    """
-
-    title: str
-    hints: Sequence[str]
-    is_over: bool
-
-    def take(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Return what a modal operator returns for an event, or an empty set if the event is not for the hand."""
 
 
 @dataclass(frozen=True)
@@ -68,13 +51,13 @@ class Step:
         Shows the best result so far, and returns a text for the status bar. The text is empty if there is no result yet. The interface
         calls it from time to time. None if the step cannot end early.
     hand
-        The artist's influence meanwhile; None: the artist can only move the view.
+        The parts that the artist changes meanwhile; None: the artist can only move the view.
     """
 
     text: str
     work: Callable[[Progress], None] | None = None
     look: Callable[[], str] | None = None
-    hand: Hand | None = None
+    hand: LiveParts | None = None
 
 
 class AfterChain(EditMeshOperator):

@@ -165,7 +165,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         with closing(PlanPreview()) as preview:
             live = LiveParts(search, preview, choice, lambda: self.enough)
             while not live.is_done:
-                yield from _step(search, live.step())
+                find, plan = ("Finding parts", live.find), ("Planning seams", live.plan, live.look)
+                yield from _step(search, Step(*(find if live.begin() else plan), hand=live))
             choice = live.choice
             self.parts, self.parts_by, self.distortion = 100.0 * choice.amount, choice.by, choice.stretch
             self.islands, self.edits = choice.islands, edits_text(choice.edits)

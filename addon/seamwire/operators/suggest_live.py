@@ -21,7 +21,6 @@ from ..words.corner import FoundMap, rows_of_parts
 from ..words.keys import MODIFIER_KEYS, Action
 from ..words.search_report import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
 from . import keymaps
-from .steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -32,8 +31,8 @@ if TYPE_CHECKING:
     from ..core.islands.square_use import SquareUse
     from ..mesh.seam_search import SeamSearch, Suggestion
     from ..view.viewport import Place
-    from .steps import Progress
 
+    Progress = Callable[[float], bool]
     Search = Callable[[Progress], PartChoice]
     """Finds other parts, and returns the choice that they belong to. Any thread may call it."""
     Asked = tuple[Search, int | None]
@@ -93,16 +92,14 @@ class LiveParts:
 
     # The step
 
-    def step(self) -> Step:
-        """Return the step that finds the parts that the artist has asked for, or waits and plans when the hand rests."""
+    def begin(self) -> bool:
+        """Take the parts that were found, and return whether the artist has asked for others: `find` is next, otherwise `plan`."""
         found, self._found = self._found, None
         if found is not None and self._searches and self._searches[0] is found[0]:
             self._searches.popleft()
             self._change_to(found[1], found[0][1])
         self._worked_on = self._version
-        if self._searches:
-            return Step("Finding parts", self._find, hand=self)
-        return Step("Planning seams", self._plan, self._look, self)
+        return bool(self._searches)
 
     @property
     def choice(self) -> PartChoice:
@@ -121,22 +118,22 @@ class LiveParts:
 
     @property
     def is_over(self) -> bool:
-        """Whether the step has nothing to wait for."""
+        """Whether the step ends when its work has ended. Otherwise it waits for the artist."""
         is_outdated = self._worked_on != self._version or bool(self._searches)
         return self.is_kept or is_outdated or not self._search.are_alive
 
     @property
     def title(self) -> str:
-        """The answer to the last key, the amount and the number of parts, and the limit of the stretch."""
+        """For the status bar: the answer to the last key, the amount and the number of parts, and the limit of the stretch."""
         text = parts_text(self.choice.by, self.choice.amount, self._search.part_count, self.choice.stretch)
         return f"{self._said}    {text}" if self._said else text
 
     @property
     def hints(self) -> Sequence[str]:
-        """The artist's choices."""
+        """For the status bar: the artist's choices."""
         return () if self.is_kept else LIVE_HINTS
 
-    def _plan(self, progress: Progress) -> None:
+    def plan(self, progress: Progress) -> None:
         """Wait until the hand rests, then plan, unless it is done. Give up as soon as the parts have changed."""
         version = self._version
         if self.is_planned:
@@ -153,7 +150,7 @@ class LiveParts:
             self._search.plan(goes_on, is_enough=self._is_enough)
             self._planned = version
 
-    def _look(self) -> str:
+    def look(self) -> str:
         """Show plans that are new, and return the stretch and the length of their seams."""
         if not self._search.are_alive:
             return ""
@@ -189,7 +186,10 @@ class LiveParts:
     # The artist's hand
 
     def take(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take an event of the wheel, the mouse or the keys, as `Hand.take`."""
+        """Take an event of the wheel, the mouse or the keys.
+
+        Returns what a modal operator returns, or an empty set if the event is for others.
+        """
         if self.is_kept or not self._search.are_alive:
             return set()
         place = place_of(context.window, event)
@@ -341,7 +341,8 @@ class LiveParts:
         else:
             self._change_to(found, at)
 
-    def _find(self, progress: Progress) -> None:
+    def find(self, progress: Progress) -> None:
+        """Find the parts that the artist has asked for first."""
         asked = self._searches[0]
         with suppress(self._cancelled):
             # Undo may take the search back.

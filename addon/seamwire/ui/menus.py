@@ -54,6 +54,21 @@ class VIEW3D_MT_seamwire_finish(bpy.types.Menu):
         self.layout.operator_enum("mesh.seamwire_finish", "finish")
 
 
+class VIEW3D_MT_seamwire_network(bpy.types.Menu):
+    """Turn seams into wires, or save, load, transfer and repeat wires"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_network"
+    bl_label = "Network"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what is done with all wires of a mesh. Seamwire Networks adds its entries."""
+        self.layout.operator("mesh.seamwire_take_over", text="From Seams")
+        if not hasattr(bpy.types, "MESH_OT_seamwire_transfer"):
+            self.layout.label(
+                text="To save, load, transfer and repeat wires, enable Seamwire Networks in the preferences"
+            )
+
+
 class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
     """Select or store the islands that seams make"""  # noqa: D400 - a tooltip
 
@@ -163,7 +178,8 @@ def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
 
 
 register, unregister = together(
-    *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
+    *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_network),
+    *classes(VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
     *classes(VIEW3D_PT_seamwire_help, MESH_OT_seamwire_choose_tool),
     *(menu_entry(name, _draw_submenu) for name in MENUS),
     menu_entry(CONTEXT_MENU, _draw_entry),

@@ -11,7 +11,7 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL, settings, tool_is_active
-from ..operators import hover, island_operators, undo_steps
+from ..operators import hover, island_operators
 from ..operators.keymaps import HELP_PANEL, NAME
 from ..terms.choices import ALONG
 from ..terms.options import SETTINGS, strength_name
@@ -192,7 +192,6 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
             {"properties": [("which", "WORST")]},
         ),
         ("wm.call_panel", {"type": "F1", "value": "PRESS"}, {"properties": [("name", HELP_PANEL)]}),
-        (undo_steps.HINT, {"type": "F9", "value": "PRESS"}, None),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 

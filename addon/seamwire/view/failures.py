@@ -6,7 +6,6 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, TypeVar
 
-from ..core.base.messages import Message
 from ..mesh import settings as chosen
 
 if TYPE_CHECKING:
@@ -63,7 +62,10 @@ class Failures:
         if self._told.get(part) == text:
             return
         self._told[part] = text
-        chosen.notices.add("WARNING", str(Message.of("drawing-failed", why=text)))
+        chosen.notices.add(
+            "WARNING",
+            f"Part of the drawing failed. It is tried again when the mode, the tool or the mesh changes: {text}",
+        )
         sys.excepthook(type(error), error, error.__traceback__)
 
 

@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.sketch.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
+from ..core.sketch.picture import LIVE, Role, SeedRole
 from ..terms.choices import FINISHES
 from ..words import corner
 from .failures import failures
@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.sketch.picture import Picture, ShownWire
     from ..core.islands.islands import Islands
-    from ..core.sketch.network import Snap
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
+    from ..core.sketch.network import Snap
+    from ..core.sketch.picture import Picture, ShownWire
     from ..mesh.pose import Pose
     from .layers import Layer
 

@@ -12,9 +12,9 @@ from .reports import count, percent, square_used
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from ..core.sketch.picture import Picture
     from ..core.islands.square_use import SquareUse
     from ..core.seams.seam_plan import PartChoice
+    from ..core.sketch.picture import Picture
     from ..terms.choices import PartsBy
 
 
@@ -40,8 +40,6 @@ def lines(picture: Picture) -> list[str]:
         which = KINDS[METRICS[options.metric].follows[picture.active.follow]]
         if choice.straight:
             which = "Straight in the view"
-        elif choice.around:
-            which = "Around the limb"
         found.append(f"{which} ({choice.number + 1} of {choice.count})")
     if islands is not None and islands.parted:
         gaps = f", {count(len(islands.gaps), 'gap')} in seams" if islands.gaps else ""

@@ -78,7 +78,7 @@ def hints(status: Status) -> list[Hint]:
     if status.message:
         found.append(("INFO", status.message))
     if picture.message:
-        found.append(("ERROR", str(picture.message)))
+        found.append(("ERROR", picture.message))
     deeds = [*_click(picture), (Action.END, "End Chain"), (Action.KEYS, "Keys"), *_wires(picture), *_guides(status)]
     for action, text in deeds:
         icon, before = keys.icon(action)

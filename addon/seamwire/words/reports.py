@@ -9,32 +9,15 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..core.sketch.change import Change
     from ..core.islands.map_faults import MapFaults
     from ..core.islands.square_use import CostlyIsland, SquareUse
-    from ..core.network.picks import Pick
-
-
-DEGREE_NAMES = {"SURE": "sure", "LIKELY": "likely", "DOUBTFUL": "doubtful", "LOST": "not placed"}
-"""How sure a transferred seed is."""
+    from ..core.sketch.change import Change
 
 
 def count(number: int, what: str, several: str = "") -> str:
     """Return a number with what it counts."""
     return f"{number} {what if number == 1 else several or what + 's'}"
 
-
-def pick_name(pick: Pick) -> str:
-    """Return a vertex, an edge or a point of a face as messages call it."""
-    if isinstance(pick, tuple):
-        return f"edge {pick[0]}-{pick[1]}"
-    return "this point" if hasattr(pick, "weights") else f"vertex {pick}"
-
-
-ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
-"""The text of the panel Adjust Last Operation after something was drawn."""
-ADJUST_EDITED = ("Undo takes it back. To edit more, point at a wire:", "swap its path, drag its seeds, or remove it")
-"""The text after something was moved, swapped, bent or removed."""
 
 ALL_HIDDEN = "All objects in Edit Mode are hidden: show them"
 """The report of an operator that finds no object, because Blender leaves out hidden ones."""

@@ -5,15 +5,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..core.network.picks import pick_name
 from ..core.sketch.picture import Role
 from ..terms.choices import LOOPS
-from .reports import pick_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..core.sketch.sketch import Sketch
     from ..core.network.picks import Edge, Pick
+    from ..core.sketch.sketch import Sketch
     from ..terms.choices import LoopKind
 
 
@@ -25,7 +25,7 @@ def draw_chain(session: Sketch, seeds: Iterable[Pick]) -> list[str]:
         done = session.click(pick)
         session.wait()
         if not done or session.told:
-            problems.append(str(session.told))
+            problems.append(session.told)
     session.end_chain()
     return problems
 
@@ -40,7 +40,7 @@ def draw_loop(session: Sketch, pick: Pick, kind: LoopKind | None = None) -> str:
     if done and session.wires != before:
         return ""
     # The shape may suggest no cut at a place.
-    return str(session.reason) or f"The loop through {pick_name(pick)} is there already"
+    return session.reason or f"The loop through {pick_name(pick)} is there already"
 
 
 def _turn_to(session: Sketch, edge: Edge, kind: LoopKind) -> bool:

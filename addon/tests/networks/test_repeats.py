@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from seamwire.core.base import native
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
-from seamwire.networks.core.repeats import Repeats, connected_groups
+from seamwire_networks.repeats import Repeats, connected_groups
 
 SIZE = 6
 COUNT = SIZE * SIZE

@@ -6,11 +6,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from seamwire.core.sketch.change import Change
 from seamwire.core.islands.square_use import CostlyIsland, SquareUse
 from seamwire.core.network.network import Drawn
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.network.wires import split
+from seamwire.core.sketch.change import Change
 from seamwire.words.reports import square_used, summary
 from seamwire.words.scripted import draw_chain
 from table import SIZE, Table, grid_points

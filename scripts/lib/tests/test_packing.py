@@ -41,15 +41,16 @@ def test_a_package_is_for_its_system_and_brings_the_wheels_that_it_names(tmp_pat
     assert not any("__pycache__" in name or "_native" in name for name in names)
 
 
-def test_the_lab_is_packed_for_all_systems(tmp_path: Path) -> None:
-    package = pack_addon.pack_lab(tmp_path)
-    assert package.name == f"seamwire_lab-{VERSION}.zip"
+@pytest.mark.parametrize("name", ["seamwire_lab", "seamwire_networks"])
+def test_another_add_on_is_packed_for_all_systems(tmp_path: Path, name: str) -> None:
+    package = pack_addon.pack_other(tmp_path, pack_addon.ROOT / "addon" / name)
+    assert package.name == f"{name}-{VERSION}.zip"
     with zipfile.ZipFile(package) as archive:
-        manifest = tomllib.loads(archive.read("seamwire_lab/blender_manifest.toml").decode())
+        manifest = tomllib.loads(archive.read(f"{name}/blender_manifest.toml").decode())
         names = archive.namelist()
-    assert (manifest["id"], manifest["version"]) == ("seamwire_lab", VERSION)
+    assert (manifest["id"], manifest["version"]) == (name, VERSION)
     assert "platforms" not in manifest
-    assert {"seamwire_lab/", "seamwire_lab/__init__.py", "seamwire_lab/LICENSE"} <= set(names)
+    assert {f"{name}/", f"{name}/__init__.py", f"{name}/LICENSE"} <= set(names)
     assert len(set(names)) == len(names)
     assert not any("__pycache__" in name for name in names)
 

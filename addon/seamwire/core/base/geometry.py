@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,12 +73,6 @@ def relative_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.divide(areas, squares, out=np.zeros_like(areas), where=squares > 0.0)
 
 
-def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return unit normals of (n, 3) vertices, weighted by the areas of their (m, 3) triangles. Vertices without triangles have zero."""
-    rows, normals = triangles.reshape(-1), area_normals(points, triangles)
-    return units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
-
-
 def area_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return normals of triangles, (m, 3), twice as long as the areas."""
     a, b, c = points[triangles].transpose(1, 0, 2)
@@ -90,51 +83,3 @@ def units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors, (..., 3), with length 1, or 0 if they have none."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
-
-
-def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,)."""
-    normals = triangle_normals(points, triangles)
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
-    order = np.lexsort((sides[:, 1], sides[:, 0]))
-    shared = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
-    one, other = order[shared], order[shared + 1]
-    cosines = np.einsum("ij,ij->i", normals[one // 3], normals[other // 3])
-    angles = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
-    largest = np.zeros(len(points))
-    for column in sides[one].T:
-        np.maximum.at(largest, column, angles)
-    return largest
-
-
-@dataclass(frozen=True)
-class Moments:
-    """Where a surface lies, whatever its triangles are: its center of area, (3,), and its principal axes, (3, 3).
-
-    The longest axis comes first. Each is as long as the standard deviation along it.
-    """
-
-    middle: NDArray[np.float64]
-    axes: NDArray[np.float64]
-
-    @classmethod
-    def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> Moments:
-        """Return those of a mesh; of one without an area, zeros."""
-        corners, areas = points[triangles], triangle_areas(points, triangles)
-        total = float(areas.sum())
-        if not total > 0.0:
-            return cls(np.zeros(3), np.zeros((3, 3)))
-        middles = corners.mean(axis=1)
-        middle = areas @ middles / total
-        off = np.concatenate([corners.transpose(1, 0, 2), middles[None]]) - middle
-        # Over a triangle the square is that of its corners and thrice that of its middle, each a twelfth and nine twelfths.
-        weights = np.array([1.0, 1.0, 1.0, 9.0]) / 12.0
-        square = np.einsum("c,m,cmi,cmj->ij", weights, areas, off, off) / total
-        values, vectors = np.linalg.eigh(square)
-        axes = (vectors * np.sqrt(np.maximum(values, 0.0))).T[::-1]
-        return cls(middle, axes)
-
-    @property
-    def size(self) -> float:
-        """The standard deviation in all directions together."""
-        return float(np.linalg.norm(self.axes))

@@ -15,8 +15,6 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .messages import Told
-
 if TYPE_CHECKING:
     from types import ModuleType
 
@@ -29,7 +27,7 @@ IS_EXTENSION = __package__.startswith("bl_ext.")
 """Whether this is an extension of Blender 4.2 or later, which installs the wheel of an extension itself."""
 
 
-class NativeError(Told, ImportError):
+class NativeError(ImportError):
     """The compiled part cannot be used."""
 
 
@@ -51,7 +49,10 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     if IS_EXTENSION:
         fitting = _fitting(wheels)
         if fitting and _is_absent(installed):
-            raise NativeError("wheel-not-installed", wheel=fitting[0].name) from installed
+            raise NativeError(
+                f"Blender has not installed Seamwire's compiled part, {fitting[0].name}, or has removed it since: "
+                "disable and enable the add-on"
+            ) from installed
         raise _error(folder, wheels, installed, installed) from installed
     place = _unpacked(folder, wheels)
     sys.path.insert(0, str(place))
@@ -112,11 +113,8 @@ def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
         found = PathFinder.find_spec(NAME)
         place = found.origin if found and found.origin else module.__file__
         raise NativeError(
-            "updated-while-in-use",
-            versions=", ".join(sorted(versions)),
-            used=module.__version__,
-            name=NAME,
-            folder=Path(place).parent,
+            f"Seamwire was updated to {', '.join(sorted(versions))} while its version {module.__version__} was in use: "
+            f"restart Blender. If that does not help, remove the {NAME} in {Path(place).parent}"
         )
     return module
 
@@ -140,7 +138,7 @@ def _unpacked(folder: Path, wheels: Path) -> Path:
     except OSError as error:
         # Another Blender may have been faster.
         if not place.is_dir():
-            raise NativeError("cannot-unpack", folder=folder, why=error.strerror) from error
+            raise NativeError(f"Seamwire cannot unpack its compiled part to {folder}: {error.strerror}") from error
     return place
 
 
@@ -165,12 +163,15 @@ def _is_absent(error: ImportError) -> bool:
 
 
 def _error(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> NativeError:
-    version, system = f"{sys.version_info.major}.{sys.version_info.minor}", sysconfig.get_platform()
+    here = f"Python {sys.version_info.major}.{sys.version_info.minor} on {sysconfig.get_platform()}"
     found = sorted(path.name for path in folder.glob(f"{NAME}*") if path.suffix in {".so", ".pyd", ".dll"})
     found += sorted(path.name for path in wheels.glob("*.whl"))
     for error in (installed, own):
         if not _is_absent(error):
-            return NativeError("does-not-load", version=version, system=system, why=error)
+            return NativeError(f"Seamwire's compiled part does not load in this Blender ({here}): {error}")
     if found:
-        return NativeError("other-build", found=", ".join(found), version=version, system=system)
-    return NativeError("no-build", name=NAME, version=version, system=system)
+        return NativeError(
+            f"Seamwire's compiled part was built for another Python or system ({', '.join(found)}), and this Blender "
+            f"has {here}: install the Seamwire package made for it"
+        )
+    return NativeError(f"Seamwire's compiled part, {NAME}, is missing: install the Seamwire package made for {here}")

@@ -60,6 +60,13 @@ def undirected(pick: Pick | None) -> Pick | None:
     return (min(pick), max(pick)) if isinstance(pick, tuple) else pick
 
 
+def pick_name(pick: Pick) -> str:
+    """Return a vertex, an edge or a point of a face as messages call it."""
+    if isinstance(pick, tuple):
+        return f"edge {pick[0]}-{pick[1]}"
+    return "this point" if isinstance(pick, FacePoint) else f"vertex {pick}"
+
+
 def vertices_of(pick: Pick) -> tuple[int, ...]:
     """Return the vertex, both vertices of an edge, or the vertex that stands for a point."""
     if isinstance(pick, FacePoint):

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base import native
 from ..base.geometry import barycentric, length_of
-from ..base.messages import Refused
+from ..base.refused import Refused
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -85,9 +85,9 @@ def drawn(
     path = np.array(points, dtype=np.float64).reshape(-1, 3)
     numbers = np.array(faces, dtype=np.int32).reshape(-1)
     if len(path) != len(numbers) or not np.isfinite(path).all():
-        raise OffMeshError("stroke-damaged")
+        raise OffMeshError("The stroke is damaged: each point needs a place and a face")
     if ((numbers < 0) | (numbers >= len(triangles))).any():
-        raise OffMeshError("stroke-leaves-visible-part")
+        raise OffMeshError("The stroke leaves the visible part of the mesh")
     size = longest_side(mesh)
     rows = _thinned(path, _STEP * size)
     path, numbers = path[rows], numbers[rows]
@@ -97,7 +97,7 @@ def drawn(
     corners = triangles[numbers]
     inside = into_triangles(path, mesh[corners])
     if (np.linalg.norm(inside - path, axis=1) > _OFF_MESH * size).any():
-        raise OffMeshError("stroke-leaves-mesh")
+        raise OffMeshError("The stroke leaves the mesh")
     _check_length(inside, size)
     for _ in range(_SMOOTHINGS):
         before, after = np.roll(inside, 1, axis=0), np.roll(inside, -1, axis=0)
@@ -121,7 +121,7 @@ def through_vertices(
     numbers = np.array(vertices, dtype=np.int64).reshape(-1)
     missing = numbers[(numbers < 0) | (numbers >= len(mesh))]
     if len(missing):
-        raise OffMeshError("stroke-no-vertex", vertex=missing[0], count=len(mesh))
+        raise OffMeshError(f"There is no vertex {missing[0]} for the stroke: the mesh has {len(mesh)}, numbered from 0")
     path = mesh[numbers]
     _check_length(path, longest_side(mesh))
     corners = np.repeat(numbers[:, None], 3, axis=1).astype(np.int32)
@@ -145,7 +145,7 @@ def _thinned(path: NDArray[np.float64], step: float) -> NDArray[np.int64]:
 def _check_length(path: NDArray[np.float64], size: float) -> None:
     length = length_of(path) if len(path) > 1 else 0.0
     if not length > _STEP * size:
-        raise OffMeshError("stroke-without-direction")
+        raise OffMeshError("A stroke needs a direction: drag along the surface")
 
 
 def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:

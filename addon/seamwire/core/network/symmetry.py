@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import HalfEdges, after, among
-from ..base.messages import NOTHING, Message
 from ..base.nearest_vertices import NearestVertices
 from .network import Drawn, net_effect
 from .wires import Wire
@@ -445,9 +444,9 @@ class MirrorImages:
             self._effect = (network, *net_effect(claims))
         return self._effect[1:]
 
-    def warning(self, wire: Wire) -> Message:
+    def warning(self, wire: Wire) -> str:
         """Return, the first time only, that part of a wire has no image; empty where it has."""
         if self._warned or not wire.mirror or not self._symmetry.one_sided(wire, wire.mirror):
-            return NOTHING
+            return ""
         self._warned = True
-        return Message.of("no-mirror-image")
+        return "Part of this wire has no mirror image: the mesh is not symmetric there"

@@ -224,9 +224,7 @@ def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wi
     seed: Pick = vertices[after] if before == after else (vertices[before], vertices[after])
     heading = (vertices[after - 1], vertices[after])
     first = wire.drawn(vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed)
-    second = wire.drawn(
-        vertices=vertices[after:], points=wire.points[after:], start=seed, heading=heading, id=new_id()
-    )
+    second = wire.drawn(vertices=vertices[after:], points=wire.points[after:], start=seed, heading=heading, id=new_id())
     return first, second
 
 

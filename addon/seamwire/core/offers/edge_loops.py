@@ -10,7 +10,6 @@ import numpy as np
 
 from ..base.geometry import length_of, nearest_on_segments
 from ..base.half_edges import among
-from ..base.messages import Message
 from ..network.picks import undirected
 from ..network.wires import Wire
 from .offers import Offers
@@ -22,9 +21,9 @@ if TYPE_CHECKING:
 
     from ...terms.choices import LoopKind
     from ..network.network import Drawn
-    from ..sketch.network import Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
+    from ..sketch.network import Snap
     from ..solver.solver import Engines, LiveWire
     from .part_borders import PartBorders, VertexChain
 
@@ -106,7 +105,7 @@ _MOST_PIECES = 64
 class LoopOffers(Offers):
     """The loops that a click on the edge under the cursor may add."""
 
-    SINGLE = Message.of("nothing-else-through-edge")
+    SINGLE = "No other loop through this edge"
 
     def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64], parts: PartBorders) -> None:
         super().__init__()

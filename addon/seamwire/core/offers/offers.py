@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message
 from ..network.picks import undirected
 from ..network.wires import Wire
 
@@ -18,9 +17,9 @@ if TYPE_CHECKING:
 class Offers:
     """The loops that a click under the cursor may add. Who finds it, and how, is for the classes made of this."""
 
-    SINGLE = NOTHING
+    SINGLE = ""
     """Says that there is only one offer."""
-    NONE = NOTHING
+    NONE = ""
     """The message if there is no offer."""
 
     def __init__(self) -> None:
@@ -93,11 +92,11 @@ class Offers:
         alike = (place for place, offer in enumerate(offers) if offer.like(self.wire))
         return next(alike, min(self.choice, max(len(offers) - 1, 0)))
 
-    def advance(self) -> Message:
+    def advance(self) -> str:
         """Show the next offer; return why that cannot be, else nothing."""
         if not self.offers:
-            return Message.of("no-loop-yet")
+            return "No loop found yet"
         if len(self.offers) == 1:
             return self.SINGLE
         self.choice = (self.choice + 1) % len(self.offers)
-        return NOTHING
+        return ""

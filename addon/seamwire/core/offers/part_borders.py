@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base.geometry import length_of
 from ..base.half_edges import after
-from ..base.messages import Refused
+from ..base.refused import Refused
 from .turns import SurfaceEdges
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class PartBorders:
             if len(self._triangles) <= AT_ONCE:
                 self._thread.join()
         if self._error is not None:
-            raise Refused("loops-failed", why=str(self._error))
+            raise Refused(f"Loops could not be found: {self._error}")
         return self._is_prepared
 
     def stop(self) -> None:

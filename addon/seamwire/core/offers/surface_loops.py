@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import length_of, nearest_on_segments
-from ..base.messages import Message, Refused
+from ..base.refused import Refused
 from ..network.picks import FacePoint, place_of
 from ..network.wires import Wire
 from ..solver.solver import for_live
@@ -157,8 +157,8 @@ class CutMemory:
 class SurfaceLoops(Offers):
     """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too."""
 
-    SINGLE = Message.of("nothing-else-here")
-    NONE = Message.of("no-closed-cut")
+    SINGLE = "No other closed cut here"
+    NONE = "The shape suggests no closed cut here"
 
     def __init__(self, engines: Engines, triangles: NDArray[np.int32]) -> None:
         super().__init__()
@@ -189,7 +189,7 @@ class SurfaceLoops(Offers):
         if self.bends:
             cut = self.bendable(network)
             if cut is None:
-                raise Refused("nothing-to-bend")
+                raise Refused("No closed cut to bend: add one first")
             begin = cut.through
             number = self._id_of(cut, live)
             if number is None:
@@ -197,7 +197,7 @@ class SurfaceLoops(Offers):
                 return ()
             found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), number)
             if found.final and not found.cuts:
-                raise Refused("no-cut-through-both")
+                raise Refused("No closed cut leads through both points")
         else:
             found = live.closed_wires(for_live(pick, "SURFACE"))
         self.final = found.final
@@ -253,7 +253,7 @@ class SurfaceLoops(Offers):
         apart = {each.id: is_same(cut.course, _course(each)) for each in found.cuts}
         same = {number: gap for number, gap in apart.items() if gap is not None}
         if not same:
-            raise Refused("cut-is-gone")
+            raise Refused("The mesh has changed too much to find this cut again: undo, or add another cut")
         nearest = min(same, key=same.__getitem__)
         self._cuts[self._cuts.index(cut)] = replace(cut, id=nearest, metric=self._metric)
         return nearest

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..base.mesh_arrays import Arrays
-    from ..sketch.sketch import Sketch
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
+    from ..sketch.sketch import Sketch
     from .camera import Camera
     from .surface import Bend
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.messages import Refused
+from ..base.refused import Refused
 from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS, by_number
 
@@ -90,7 +90,7 @@ def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
             continue
         done = done + 1 if live.wait(_SLICE) else 0
         if done > MOST_WAITS:
-            raise Refused("no-result")
+            raise Refused("The computation ended without a result: this step was dropped")
 
 
 def _reach(

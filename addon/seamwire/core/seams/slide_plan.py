@@ -9,14 +9,15 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..base.geometry import barycentric, nearest_on_segments, relative_heights, triangle_normals
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -39,22 +40,29 @@ Course = tuple["Sequence[int]", "NDArray[np.float64]"]
 """The vertices of a snapped chain, and the points, (k, 3), of its curve."""
 
 
-class SlidFaces(Protocol):
-    """The polygons of a mesh, and the triangles that they are seen as."""
+@dataclass(frozen=True)
+class SlidFaces:
+    """The polygons at the vertices of some chains, and the triangles that they are seen as."""
 
-    points: NDArray[np.float64]
-    """(n, 3) vertices."""
-    triangles: NDArray[np.int32]
-    """(m, 3)"""
+    points: NDArray[np.float64]  # (n, 3)
+    triangles: NDArray[np.int32]  # (m, 3)
+    polygons: NDArray[np.int32]  # (m,) the polygon of each triangle, in ascending order
+    corners: Mapping[int, Sequence[int]]  # the vertices around each polygon
 
-    def polygons_at(self, vertex: int) -> Sequence[int]:
-        """Return the polygons around a vertex."""
+    @cached_property
+    def at(self) -> dict[int, list[int]]:
+        """The polygons at each vertex."""
+        found: dict[int, list[int]] = defaultdict(list)
+        for polygon, rim in self.corners.items():
+            for vertex in rim:
+                found[vertex].append(polygon)
+        return found
 
     def rows_of(self, polygon: int) -> Sequence[int]:
         """Return the triangles of a polygon."""
-
-    def corners(self, polygon: int) -> Sequence[int]:
-        """Return the vertices around a polygon."""
+        # Of the same type, or all of the array would be converted.
+        bounds = np.array((polygon, polygon + 1), dtype=self.polygons.dtype)
+        return range(*np.searchsorted(self.polygons, bounds).tolist())
 
 
 @dataclass(frozen=True)
@@ -95,8 +103,8 @@ def places(points: NDArray[np.float64], moves: Iterable[Move]) -> NDArray[np.flo
 def _is_on_feature(faces: SlidFaces, vertex: int) -> bool:
     """Whether a vertex lies on a sharp edge, on the border or where sheets meet."""
     beside: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
-    for polygon in faces.polygons_at(vertex):
-        triples = _corner_triples(faces.corners(polygon))
+    for polygon in faces.at[vertex]:
+        triples = _corner_triples(faces.corners[polygon])
         normal = triangle_normals(faces.points, np.array(triples)).sum(axis=0)
         normal /= max(float(np.linalg.norm(normal)), 1e-300)
         for before, at, after in triples:
@@ -129,7 +137,7 @@ def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[n
 
 def _to(faces: SlidFaces, vertex: int, place: NDArray[np.float64]) -> Move | None:
     """Return the move of a vertex to a place on the faces around it; None where it does not lie there."""
-    owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
+    owners = [(polygon, row) for polygon in faces.at[vertex] for row in faces.rows_of(polygon)]
     triangles = faces.triangles[[row for _, row in owners]]
     weights, off = barycentric(faces.points[triangles], place)
     best = int(np.argmin(off))
@@ -140,7 +148,7 @@ def _to(faces: SlidFaces, vertex: int, place: NDArray[np.float64]) -> Move | Non
 
 def _onto(faces: SlidFaces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
     """Return the move of a vertex to the nearest point of its curve within the faces around it, or to where its curves cross."""
-    owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
+    owners = [(polygon, row) for polygon in faces.at[vertex] for row in faces.rows_of(polygon)]
     triangles = faces.triangles[[row for _, row in owners]]
     corners, place, move = faces.points[triangles], faces.points[vertex], None
     for curve in list(curves) * (1 if len(curves) == 1 else _ROUNDS):
@@ -171,8 +179,8 @@ def _nearest_within(
 
 def _without_damage(faces: SlidFaces, moves: dict[int, Move]) -> dict[int, Move]:
     """Make moves shorter, or leave them out, until no corner of a face turns over or gets thin."""
-    touched = {polygon for vertex in moves for polygon in faces.polygons_at(vertex)}
-    triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners(polygon))]
+    touched = {polygon for vertex in moves for polygon in faces.at[vertex]}
+    triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners[polygon])]
     triangles = np.array(triples, dtype=np.int64).reshape(-1, 3)
     normals, heights = triangle_normals(faces.points, triangles), relative_heights(faces.points[triangles])
     halved: dict[int, int] = defaultdict(int)

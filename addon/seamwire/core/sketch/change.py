@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ...terms.choices import FINISHES
 
@@ -18,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Change:
-    """A network that has become another one. The mesh marks and clears the edges of wires, and slides, cuts or takes back cuts."""
+    """A network that has become another one. The mesh marks and clears the edges of wires, and slides or cuts them."""
 
     before: Drawn
     after: Drawn
@@ -37,41 +35,6 @@ class Change:
         """The numbers of the wires that are new or have another course."""
         same = {id(wire) for wire in self.before.wires}
         return frozenset(wire.id for wire in self.after.wires if id(wire) not in same)
-
-    def on(self, found: Drawn) -> Drawn:
-        """Return another network with the same change. A wire along the same vertices, or a stroke in the same triangles, is the same."""
-        left = {id(stroke) for stroke in self.after.strokes}
-        known = {id(one) for one in (*self.before.wires, *self.before.strokes)}
-        gone = {wire.vertices for wire in self._gone}
-        erased = [np.sort(stroke.corners, axis=1) for stroke in self.before.strokes if id(stroke) not in left]
-        # A wire that took another course keeps the number that the found network has for it. Undo may have led further back, to an even
-        # earlier course, which has the same ends then. What undo removed is not drawn again only because another wire was joined to it.
-        former = {wire.id: wire.vertices for wire in self.before.wires}
-        courses = set(former.values())
-        by_course = {wire.vertices: wire.id for wire in found.wires}
-        by_ends = {(wire.start, wire.end): wire for wire in found.wires if wire.vertices not in courses}
-        new = []
-        for wire in (wire for wire in self.after.wires if id(wire) not in known):
-            course = former.get(wire.id)
-            number = by_course.get(course, wire.id)
-            if course is not None and course not in by_course:
-                earlier = by_ends.get((wire.start, wire.end))
-                if earlier is not None:
-                    number = earlier.id
-                    gone.add(earlier.vertices)
-                elif wire.vertices == course:
-                    continue
-            new.append(replace(wire, id=number))
-        strokes = [
-            stroke
-            for stroke in found.strokes
-            if not any(np.array_equal(np.sort(stroke.corners, axis=1), corners) for corners in erased)
-        ]
-        return replace(
-            found,
-            wires=(*(wire for wire in found.wires if wire.vertices not in gone), *new),
-            strokes=(*strokes, *(stroke for stroke in self.after.strokes if id(stroke) not in known)),
-        )
 
     @cached_property
     def rerouted(self) -> int:

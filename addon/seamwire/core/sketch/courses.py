@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from ..base.messages import NOTHING, Refused, message_of
+from ..base.refused import Refused
 from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS
 from .network import Given, Request
@@ -16,7 +16,6 @@ from .network import Given, Request
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from ..base.messages import Message
     from ..solver.solver import LiveWire
     from .network import Key, Network
 
@@ -40,7 +39,7 @@ class Course:
     wires: tuple[Wire, ...] = ()
     final: bool = False
     choices: tuple[Wire, ...] = ()
-    reason: Message = NOTHING
+    reason: str = ""
 
 
 UNKNOWN = Course()
@@ -99,7 +98,7 @@ class Courses:
             done.append(own)
         return done, False
 
-    def give_up(self, requests: Iterable[Request], reason: Message) -> None:
+    def give_up(self, requests: Iterable[Request], reason: str) -> None:
         """Let requests stay as they are shown, because nothing more is found."""
         for own in requests:
             shown = self.of(own)
@@ -112,7 +111,7 @@ class Courses:
             raise AssertionError("A search ended without a final course") from None
         except ValueError as error:
             was = getattr(request, "was", None)
-            course = Course(() if was is None else (was,), final=True, reason=message_of(error))
+            course = Course(() if was is None else (was,), final=True, reason=str(error))
         before = self.of(request)
         if course.final:
             self._end(request, course)
@@ -129,5 +128,5 @@ def patiently(live: LiveWire, is_done: bool, waits: int) -> int:
     """Return how often in a row the library has said that its work is done although an answer is missing. Raise Refused at too many."""
     waits = 0 if is_done or live.progress() < 1.0 else waits + 1
     if waits > MOST_WAITS:
-        raise Refused("no-result")
+        raise Refused("The computation ended without a result: this step was dropped")
     return waits

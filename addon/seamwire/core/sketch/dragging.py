@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message, Refused, message_of
-from ..network.picks import undirected
+from ..base.refused import Refused
+from ..network.picks import pick_name, undirected
 from ..solver.solver import for_live
 from .courses import Course
 from .interaction import Begun, Edit, Interaction
@@ -79,12 +79,12 @@ class Dragging(Interaction):
         ends = self._before.at(grip.pick)
         live = self._before.seed
         if not ends and (live is None or undirected(live.pick) != undirected(grip.pick)):
-            raise Refused(Message.of("no-seed-to-move", pick=grip.pick))
+            raise Refused(f"No seed to move at {pick_name(grip.pick)}")
         self._legs: list[Leg] = []
         for own, end in ends:
             wire = sketch.wire_of(own)
             if wire is None or not isinstance(own, (Given, Way)):
-                raise Refused("still-computing")
+                raise Refused("This wire is still being computed: try again in a moment")
             # Wires that were cut go across the surface anew.
             wire = wire.uncut()
             if wire.along != own.along:
@@ -119,7 +119,7 @@ class Dragging(Interaction):
         try:
             self.reason = self._refusal(target.pick) or self._lead(target.pick)
         except ValueError as error:
-            self.reason = message_of(error)
+            self.reason = str(error)
 
     def poll(self) -> bool:
         if self._is_final or self.target is None:
@@ -128,14 +128,14 @@ class Dragging(Interaction):
         self.aim(self.target)
         return before is not self.moved
 
-    def _refusal(self, pick: Pick) -> Message:
+    def _refusal(self, pick: Pick) -> str:
         if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self._legs):
             return only_vertices(pick)
         if self._legs and all(undirected(leg.stays) == undirected(pick) for leg in self._legs):
-            return Message.of("would-end-where-it-begins")
-        return NOTHING
+            return "The wire would end where it begins: remove it instead"
+        return ""
 
-    def _lead(self, pick: Pick) -> Message:
+    def _lead(self, pick: Pick) -> str:
         """Find the wires to a pick, and show them if all of them are solved. Return why there is none."""
         begun: list[Begun] = []
         moved: list[Wire] = []
@@ -170,10 +170,10 @@ class Dragging(Interaction):
                 direction = directed(wire, leg.moving)
         self._courses = tuple(begun)
         if self._is_solved and missing:
-            return Message.of("no-wire-between", start=missing[0].stays, pick=pick)
+            return f"No wire from {pick_name(missing[0].stays)} reaches {pick_name(pick)}"
         if self._is_solved:
             self.moved = tuple(moved)
-        return NOTHING
+        return ""
 
     def _arriving_first(self) -> list[Leg]:
         return sorted(self._legs, key=lambda leg: leg.moving == "start")
@@ -192,7 +192,9 @@ class Dragging(Interaction):
     def seeds(self) -> list[Pick]:
         """Return every seed with this one where it is now, each once."""
         before, now = undirected(self._seed), undirected(self.place)
-        moved = (now if undirected(pick) == before else undirected(pick) for pick in (*self._before.seeds(), *self._live))
+        moved = (
+            now if undirected(pick) == before else undirected(pick) for pick in (*self._before.seeds(), *self._live)
+        )
         return list(dict.fromkeys(moved))
 
     @property
@@ -219,7 +221,7 @@ class Dragging(Interaction):
             return None
         sketch, pick = self._sketch, self.target.pick
         begun = tuple(each for each in self._courses if not each.course.final or each.course.wires[0].leaves_trace)
-        report = Message.of("wire-went") if len(begun) < len(self._courses) else NOTHING
+        report = "A wire was removed: no edge is left for its seam" if len(begun) < len(self._courses) else ""
         requests = {each.request.id: each.request for each in begun}
         gone = [leg.own.id for leg in self._legs if leg.own.id not in requests]
         network = self._before.without(*gone).replacing({id: (own,) for id, own in requests.items()})

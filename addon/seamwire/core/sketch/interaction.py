@@ -5,13 +5,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..base.messages import NOTHING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..base.messages import Message
-    from ..solver.solver import LiveWire
+        from ..solver.solver import LiveWire
     from .courses import Course, Search
     from .network import Network, Request, Snap
     from .sketch import Sketch
@@ -31,7 +29,7 @@ class Edit(NamedTuple):
     network: Network
     begun: tuple[Begun, ...] = ()
     chosen: int | None = None
-    report: Message = NOTHING
+    report: str = ""
 
 
 class Interaction:
@@ -48,7 +46,7 @@ class Interaction:
     def __init__(self, sketch: Sketch) -> None:
         self._sketch = sketch
         self.target: Snap | None = None
-        self.reason: Message = NOTHING
+        self.reason: str = ""
 
     def poll(self) -> bool:
         """Take in what was computed. Return whether there is something else to be seen."""

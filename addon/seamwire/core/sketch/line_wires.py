@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import among
-from ..base.messages import NOTHING, Message, message_of
 from ..network.picks import FacePoint
 from ..network.wires import Wire
 from ..seams.seam_wires import wires_along
@@ -80,7 +79,7 @@ class EdgeLine:
         self._making: Iterator[Wire | None] | None = None
         self.points = np.empty((0, 3))
         self.wires: tuple[Wire, ...] = ()
-        self.message = NOTHING
+        self.message = ""
 
     def to(
         self, points: NDArray[np.float64], triangles: NDArray[np.int32], end: Pick | None, stops: NDArray[np.int64]
@@ -105,7 +104,7 @@ class EdgeLine:
         try:
             fitted = self._live.fit_chain(points[at], triangles[at], begin, self._nearest_of(end, points[-1]))
         except ValueError as error:
-            self.message = message_of(error)
+            self.message = str(error)
             return
         chain, places = fitted.vertices.tolist(), fitted.places
         if end is None:
@@ -209,7 +208,7 @@ class SurfaceLine:
         self._finished = False
         self.points = np.empty((0, 3))
         self.wires: tuple[Wire, ...] = ()
-        self.message = NOTHING
+        self.message = ""
         self._live.seed(for_live(begin, "SURFACE"))
 
     def to(
@@ -281,7 +280,7 @@ class SurfaceLine:
                     continue
                 found = self._live.wires(for_live(self._picks[goal][0], "SURFACE"))
             except ValueError as error:
-                self.message = message_of(error)
+                self.message = str(error)
                 break
             wire, fits = self._nearest(found, goal)
             if not found.solved:
@@ -325,7 +324,7 @@ class SurfaceLine:
         """Keep the wire that goes farthest, and go on from its end; return whether there is more to do."""
         number, wire = self._farthest()
         if wire is None:
-            self.message = Message.of("no-wire-further")
+            self.message = "No wire fits the rest of the line"
             return False
         self._legs.append(wire)
         self._anchor, self._good, self._bad = number, None, None

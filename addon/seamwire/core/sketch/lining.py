@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import among
-from ..base.messages import Message, Refused
+from ..base.refused import Refused
 from ..network.picks import vertices_of
 from .courses import Course, Search
 from .interaction import Begun, Edit, Interaction
 from .line_wires import EdgeLine, SurfaceLine
-from .network import Found, Given, linked, surface_vertex
+from .network import Found, linked, surface_vertex
 from .wiring import only_vertices
 
 if TYPE_CHECKING:
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from ..solver.solver import LiveWire
     from .network import How, Network, Seed, Snap
     from .sketch import Sketch
+
+
+_TOO_SHORT = "Drag farther along the surface to draw a line"
 
 
 class Lining(Interaction):
@@ -89,7 +92,7 @@ class Lining(Interaction):
         how = sketch.how(sketch.options.along)
         is_done = line.poll()
         if is_done and not line.wires:
-            none = Message.of("no-wire-follows-line" if self._apart else "line-too-short")
+            none = "No wire fits this line: draw closer to the surface" if self._apart else _TOO_SHORT
             raise Refused(line.message or none)
         if is_done:
             self.warn()
@@ -160,9 +163,7 @@ class Lining(Interaction):
         """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
         if self.joined is not None or end == seed.began:
             return True
-        return isinstance(end, int) and bool(
-            among(np.array([end]), self._sketch.stops.kept(self._sketch.drawn))[0]
-        )
+        return isinstance(end, int) and bool(among(np.array([end]), self._sketch.stops.kept(self._sketch.drawn))[0])
 
 
 class LineSearch(Search):
@@ -179,7 +180,7 @@ class LineSearch(Search):
         is_done = line.poll()
         wires = tuple(map(self._how.of, line.wires))
         if is_done and not wires:
-            raise Refused(line.message or "line-too-short")
+            raise Refused(line.message or _TOO_SHORT)
         if wires:
             wires = (replace(wires[0], id=self._request.id, start=self._request.start), *wires[1:])
         if is_done:

@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..fields.crests import CREST_KINDS
-from ..network.picks import FacePoint, undirected
+from ..network.picks import FacePoint, pick_name, undirected
 from ..offers.edge_loops import LoopOffers, taken
 from ..offers.part_borders import PartBorders
 from ..offers.surface_loops import SurfaceLoops
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from ..offers.offers import Offers
     from ..offers.surface_loops import TakenCut
     from ..solver.solver import LiveWire
-    from .network import Network
     from .sketch import Sketch
 
 
@@ -98,7 +97,7 @@ class Offering(Interaction):
         for own in (self.edges, self.cuts):
             own.stop_waiting()  # compute no offers that nobody asks for any more
         if target is None or not offers.unfinished:
-            self.reason = NOTHING if not offers.missing else self.reason
+            self.reason = "" if not offers.missing else self.reason
             return False
         changed = offers.show(target.pick, self.find(target.pick))
         if not self.reason and offers.NONE and offers.missing and offers.final and not self.cuts.bends:
@@ -126,13 +125,13 @@ class Offering(Interaction):
 
         An edge has the offers along edges, even if wires run across the surface.
         """
-        self.reason = NOTHING
+        self.reason = ""
         offers = self.edges if isinstance(pick, tuple) else self.cuts
         self.cuts.into_faces = self._sketch.options.into_faces
         try:
             return self._with_crest(pick, offers.find(pick, self._sketch.drawn, kept), kept)
         except ValueError as error:
-            self.reason = message_of(error)
+            self.reason = str(error)
             return ()
 
     def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
@@ -151,8 +150,9 @@ class Offering(Interaction):
     def check(self, target: Snap) -> None:
         """Raise Refused if no loop can lead through a target."""
         if not self.offers.takes(target.pick):
-            code = "no-loop-through" if self._sketch.options.along == "EDGES" else "no-cut-through"
-            raise Refused(Message.of(code, pick=target.pick))
+            along_edges = self._sketch.options.along == "EDGES"
+            what = "Loops need an edge" if along_edges else "Closed cuts need a vertex or a point of a face"
+            raise Refused(f"{what}, not {pick_name(target.pick)}")
 
     def take(self, target: Snap) -> Edit | None:
         """Take the offer that is shown at a target, or the first one. Return None if it is taken already."""
@@ -182,7 +182,7 @@ class Offering(Interaction):
         if not offers:
             if progress < 1.0 or not self.edges.final:
                 return self._later(target, LoopSearch(sketch, target, self._choice))
-            raise Refused(self.reason or Message.of("no-edges-run-on", pick=edge))
+            raise Refused(self.reason or f"No edge continues at {pick_name(edge)}")
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
             return self._take_crest(edge)
@@ -217,10 +217,10 @@ class Offering(Interaction):
         """
         sketch = self._sketch
         if sketch.options.along == "EDGES" or not self.cuts.takes(target.pick):
-            raise Refused(Message.of("no-bend-to", pick=target.pick))
+            raise Refused(f"Closed cuts bend to places on the surface, not to {pick_name(target.pick)}")
         before = self.cuts.bendable(sketch.drawn)
         if before is None:
-            raise Refused("nothing-to-bend")
+            raise Refused("No closed cut to bend: add one first")
         self.cuts.bend(True)
         offers = self.find(target.pick)
         how = replace(sketch.how("SURFACE"), marks=before.wires[0].marks, mirror=before.wires[0].mirror)
@@ -244,16 +244,14 @@ class Offering(Interaction):
         if not own.offers:
             offers = self.find(own.through, own)[1:]
             if not self.edges.final:
-                request = Found(
-                    along="EDGES", start=own.start, end=own.end, closed=own.closed, id=own.id, what="loop"
-                )
+                request = Found(along="EDGES", start=own.start, end=own.end, closed=own.closed, id=own.id, what="loop")
                 search = LoopSearch(self._sketch, Snap(own.through), steps, own)
                 return Edit(
                     network.replacing({own.id: (request,)}),
                     (Begun(request, Course((own,)), search),),
                 )
             if not offers:
-                raise Refused(self.reason or Message.of("nothing-else-through-edge"))
+                raise Refused(self.reason or "No other loop through this edge")
             own = replace(own, offers=offers)
         return Edit(network.replacing({own.id: (Given.of(own.next_offer(steps)),)}))
 
@@ -262,7 +260,7 @@ class Offering(Interaction):
         sketch = self._sketch
         number = None if self._crests is None else self._crests.line_at(pick)
         if self._crests is None or number is None:
-            raise Refused(Message.of("no-crest-at", pick=pick))
+            raise Refused(f"No ridge or valley runs at {pick_name(pick)}")
         points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), sketch.triangles, sketch.points)
         begin: Pick = first if sketch.options.into_faces and sketch.options.along == "SURFACE" else first.vertex
@@ -301,7 +299,7 @@ def cut_wires(pieces: tuple[Wire, ...], how: How) -> tuple[Wire, ...]:
     """Return the wires of a closed cut. Raise Refused if nothing of it leaves a trace."""
     wires = tuple(wire for wire in (how.of(piece.anew()) for piece in pieces) if wire.leaves_trace)
     if not wires:
-        raise Refused("cut-meets-no-edge")
+        raise Refused("No edge is left for the seam of this cut")
     return wires
 
 
@@ -329,10 +327,10 @@ class LoopSearch(Search):
             return Course(() if kept is None else (kept,))
         if kept is not None:
             if len(offers) < 2:
-                raise Refused("nothing-else-through-edge")
+                raise Refused("No other loop through this edge")
             return Course((replace(kept, offers=offers[1:]).next_offer(self._choice),), final=True)
         if not offers:
-            raise Refused(Message.of("no-edges-run-on", pick=edge))
+            raise Refused(f"No edge continues at {pick_name(edge)}")
         wires = taken_loops(offers, self._choice, self._how)
         self._sketch.offering.edges.took(edge, wires[-1])
         return Course(wires, final=True)

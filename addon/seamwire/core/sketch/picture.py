@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
-from ..base.messages import NOTHING, Message
 from ..network.picks import undirected
 
 if TYPE_CHECKING:
@@ -189,7 +188,7 @@ class Picture:
     can_redo: bool = False
     strength: float = 1.0
     work: Work = Work()
-    message: Message = NOTHING
+    message: str = ""
     islands: Islands | None = None
     pointed_island: int | None = None
     stroke: tuple[NDArray[np.float64], bool] | None = None

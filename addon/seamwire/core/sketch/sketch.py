@@ -12,7 +12,7 @@ import numpy as np
 from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base import native
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..network.network import Drawn
 from ..network.picks import undirected
 from ..network.stops import Stops
@@ -115,16 +115,18 @@ class Sketch:
         self.courses = Courses()
         self.ground = Ground(points, self.stops, lambda: self.network, lambda: self.drawn, self.wire)
         self.progress = 0.0
-        self.reason: Message = NOTHING
-        self.reports: list[Message] = []
-        self._new_report: Message = NOTHING
+        self.reason: str = ""
+        self.reports: list[str] = []
+        self._new_report: str = ""
         self.revision = self.network_revision = 0
         self.drawn = Drawn(mirror=options.mirror)
         self._completed: dict[Wire, Wire] = {}
         self.wiring = Wiring(self)
         self.offering = Offering(self)
         self.interaction: Interaction = self.wiring
-        self._last_click: tuple[Pick, int] | None = None  # the pick of the last step, if that was a click, and the number of steps then
+        self._last_click: tuple[Pick, int] | None = (
+            None  # the pick of the last step, if that was a click, and the number of steps then
+        )
         self._picture: tuple[object, Picture] | None = None
         # The live wires are made now, because what they compute first takes longest.
         self._read_progress()
@@ -299,7 +301,7 @@ class Sketch:
         return self._picture[1]
 
     @property
-    def told(self) -> Message:
+    def told(self) -> str:
         """The reason or the new report that the artist sees now."""
         return self.reason or self._new_report
 
@@ -369,7 +371,7 @@ class Sketch:
                 try:
                     live.wait()
                 except ValueError as error:  # what it is to compute cannot be computed
-                    self.refuse(message_of(error))
+                    self.refuse(str(error))
             self.offering.edges.wait()
             self.poll()
             if not self.computing:
@@ -378,20 +380,20 @@ class Sketch:
             rounds, before = (rounds + 1 if now == before else 0), now
         unfinished = self.courses.unfinished(self.network)
         if unfinished:
-            why = self.reason or Message.of("no-result")
+            why = self.reason or "The computation ended without a result: this step was dropped"
             self.courses.give_up(unfinished, why)
             self.tell(why)
             self._draw()
 
     # Edits
 
-    def refuse(self, why: str | Message, **values: object) -> bool:
-        """Tell why something is not done: a message, or its code and values."""
-        self.reason = Message.of(why, **values) if isinstance(why, str) else why
+    def refuse(self, why: str) -> bool:
+        """Tell why something is not done."""
+        self.reason = why
         self.revision += 1
         return False
 
-    def tell(self, what: Message) -> None:
+    def tell(self, what: str) -> None:
         """Report something that happened."""
         self._new_report = what
         self.reports.append(self._new_report)
@@ -399,12 +401,12 @@ class Sketch:
 
     def _do(self, find: Callable[[], Edit | None]) -> bool:
         """Go on to the network of an edit, unless it is refused."""
-        self._new_report = NOTHING
+        self._new_report = ""
         try:
             edit = find()
         except ValueError as error:
             self._look_again()
-            return self.refuse(message_of(error))
+            return self.refuse(str(error))
         return edit is None or self.edit(edit)
 
     def edit(self, edit: Edit) -> bool:
@@ -421,7 +423,7 @@ class Sketch:
             self.wiring.sow()
         except ValueError as error:
             self._go_to(before)
-            return self.refuse(message_of(error))
+            return self.refuse(str(error))
         self.history.step(before)
         self._settle()
         self.wiring.chosen = edit.chosen
@@ -444,7 +446,7 @@ class Sketch:
         self.wiring.chosen = None
         self.wiring.runs = False
         self.offering.offers.clear()
-        self.reason = NOTHING
+        self.reason = ""
         self._look_again()
 
     def _look_again(self) -> None:
@@ -508,7 +510,7 @@ class Sketch:
         try:
             own.advance()
         except ValueError as error:
-            return self.refuse(message_of(error))
+            return self.refuse(str(error))
         self.reason = own.reason
         self.revision += 1
         return True
@@ -575,7 +577,7 @@ class Sketch:
         try:
             self.offering.check(target)
         except Refused as error:
-            return self.refuse(error.message)
+            return self.refuse(str(error))
         self.cancel()
         if self.options.along == "EDGES":
             if self.offering.is_crest_taken(target.pick):
@@ -600,7 +602,7 @@ class Sketch:
         """Lead the live wire back to the chain's first seed, and keep it. `seen_along` is that of `Snap`."""
         first = self.network.closing_point
         if first is None:
-            return self.refuse("no-chain-to-close")
+            return self.refuse("No chain to close: draw a wire first")
         self.stop_preview()
         return self.click(Snap(first, "SEED", seen_along=seen_along))
 
@@ -610,9 +612,9 @@ class Sketch:
         A `preview` only shows it, wherever the cursor goes. A click keeps it, and `stop_preview` hides it.
         """
         if self.network.seed is None:
-            return self.refuse("nothing-runs-on")
+            return self.refuse("Nothing to extend: place a seed first")
         if self.options.along == "SURFACE":
-            return self.refuse("no-run-across")
+            return self.refuse("Extend to End works along edges, not across the surface")
         self.cancel()
         self.interaction = self.wiring
         if not preview:
@@ -620,7 +622,11 @@ class Sketch:
             return self._do(self.wiring.run_to_end)
         self.wiring.runs = True
         self._look_again()
-        return self.wiring.extended is not None or not self.wiring.is_final or self.refuse(self.reason or "no-way-on")
+        return (
+            self.wiring.extended is not None
+            or not self.wiring.is_final
+            or self.refuse(self.reason or "The wire cannot be extended from here")
+        )
 
     def end_chain(self) -> None:
         """Let go of the live wire, or of a held seed. The kept wires stay."""
@@ -649,11 +655,11 @@ class Sketch:
         network = self.base
         own, drawn = network.find(wire.id), self.drawn.find(wire)
         if own is None or drawn is None:
-            raise Refused("wire-is-gone")
+            raise Refused("This wire no longer exists")
         if drawn.through is not None:
             return self.offering.next_offer(drawn)
         if own.closed:
-            raise Refused("loop-has-one-way")
+            raise Refused("A loop has no other path")
         course = self.courses.of(own)
         if isinstance(own, Way):
             way = replace(own, turns=own.turns + 1, was=own.was if own.turns else drawn, key=Key())
@@ -682,7 +688,7 @@ class Sketch:
             (each for each in network.requests if any(one.id == wire.id for one in self.courses.of(each).wires)), None
         )
         if own is None:
-            return self.refuse("wire-is-gone")
+            return self.refuse("This wire no longer exists")
         return self._do(lambda: Edit(network.without(own.id)))
 
     def drag(self, snap: Snap | Pick) -> bool:
@@ -695,11 +701,11 @@ class Sketch:
         try:
             self.interaction = begin()
         except ValueError as error:
-            return self.refuse(message_of(error))
+            return self.refuse(str(error))
         self._read_progress()
         self.wiring.clear()
         self.offering.offers.clear()
-        self.reason = NOTHING
+        self.reason = ""
         self.revision += 1
         return True
 
@@ -707,7 +713,7 @@ class Sketch:
         """Move the dragged seed. Its wires follow as soon as they are computed. None leaves it in place."""
         drag = self.holds(Dragging)
         if drag is None:
-            return self.refuse("no-seed-moves")
+            return self.refuse("No seed is being moved")
         if snap is None:
             return False
         before = (drag.target, drag.moved, self.reason)
@@ -721,7 +727,7 @@ class Sketch:
         """Leave the dragged seed where it is; one step for undo."""
         drag = self.holds(Dragging)
         if drag is None:
-            return self.refuse("no-seed-moves")
+            return self.refuse("No seed is being moved")
         self.interaction = self.wiring
         if self.engines.computes != self.options.computes:
             self._compute_anew()
@@ -746,7 +752,7 @@ class Sketch:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
         line = self.holds(Lining)
         if line is None:
-            return self.refuse("no-line-drawn")
+            return self.refuse("No line is being drawn")
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
         self._read_progress()
         self.reason = line.reason
@@ -757,7 +763,7 @@ class Sketch:
         """Keep the wires that follow the line; one step for undo."""
         line = self.holds(Lining)
         if line is None:
-            return self.refuse("no-line-drawn")
+            return self.refuse("No line is being drawn")
         self.interaction = self.wiring
         return self._do(line.keep)
 
@@ -810,7 +816,7 @@ class Sketch:
         self._calm()
         rest = tuple(own for own in self.network.strokes if own.id != stroke.id)
         if len(rest) == len(self.network.strokes):
-            return self.refuse("stroke-is-gone")
+            return self.refuse("This stroke no longer exists")
         chosen = self.wiring.chosen
         return self._do(lambda: Edit(replace(self.base, strokes=rest), chosen=chosen))
 
@@ -832,7 +838,7 @@ class Sketch:
         if options.computes != before.computes:
             self._compute_anew()
         if options.clear != before.clear:
-            self.reason = NOTHING
+            self.reason = ""
         if options.mirror != self.network.mirror:
             self._go_to(replace(self.network, mirror=options.mirror))
         return done
@@ -851,11 +857,11 @@ class Sketch:
         """Let the live wire run the other way; if it cannot begin there, end the chain."""
         self.wiring.forget()
         self.offering.cancel()
-        why: Message = NOTHING
+        why: str = ""
         try:
             self.wiring.sow()
         except ValueError as error:
-            why = message_of(error)
+            why = str(error)
             self._go_to(replace(self.network, seed=None))
         self._look_again()
         self.reason = why or self.reason
@@ -868,13 +874,13 @@ class Sketch:
         if self.cancel():
             return True
         network = self.history.back(self.network)
-        return self.refuse("nothing-to-undo") if network is None else self._restore(network)
+        return self.refuse("Nothing to undo in this drawing") if network is None else self._restore(network)
 
     def redo(self) -> bool:
         """Bring back the step that undo took. After a new step there is nothing to redo."""
         self._calm()
         network = self.history.forth(self.network)
-        return self.refuse("nothing-to-redo") if network is None else self._restore(network)
+        return self.refuse("Nothing to redo in this drawing") if network is None else self._restore(network)
 
     @property
     def can_undo(self) -> bool:
@@ -884,7 +890,7 @@ class Sketch:
         """Go back or forth to a network of the history."""
         back = [stroke.acts_on for stroke in network.strokes if stroke not in self.network.strokes]
         self._go_to(replace(network, mirror=self.options.mirror))
-        self._new_report = NOTHING
+        self._new_report = ""
         self._last_click = None
         self.offering.forget_crest()
         self._settle()
@@ -904,11 +910,9 @@ class Sketch:
         self._completed.clear()
         # Wires that were just cut do not know their images. Images are the edges that are seams.
         among = {tuple(sorted(pair)) for pair in np.asarray(seams, dtype=np.int64).reshape(-1, 2).tolist()}
-        known = tuple(
-            wire if wire.images is not None else self.images.completed(wire, among) for wire in own.wires
-        )
+        known = tuple(wire if wire.images is not None else self.images.completed(wire, among) for wire in own.wires)
         self._go_to(Network(linked(known), mirror=self.network.mirror, strokes=own.strokes))
-        self._new_report = NOTHING
+        self._new_report = ""
         self.offering.edges.forget()
         self._settle()
 
@@ -917,4 +921,3 @@ class Sketch:
         if self._last_click == (undirected(edge), self.history.steps):
             self._restore(self.history.forget_step(self.network))
         self._last_click = None
-

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.messages import Message, Refused
-from ..network.picks import FacePoint, undirected
+from ..base.refused import Refused
+from ..network.picks import FacePoint, pick_name, undirected
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .courses import Course, Search, patiently
@@ -108,7 +108,9 @@ def ways_of(
     if way.along == "SURFACE":
         return [across(each, row, way.start, way.end, way.moving) for row, each in enumerate(candidates)], leading
     ends = way.start, way.end
-    return [along_edges(each, row, begin, ends, avoid, points, way.moving) for row, each in enumerate(candidates)], leading
+    return [
+        along_edges(each, row, begin, ends, avoid, points, way.moving) for row, each in enumerate(candidates)
+    ], leading
 
 
 def goal(target: Pick, first: Wire | None) -> tuple[Pick, int | None]:
@@ -154,12 +156,10 @@ class Ground:
         wire = self.wire(link[0])
         return None if wire is None else heading_of(wire, link[1], start)
 
-
     def after(self, own: Request) -> Wire | None:
         """Return the wire that goes on from the end of a request."""
         after = self.network().after(own)
         return None if after is None else self.wire(after.id)
-
 
     def run_on(self, live: LiveWire, wire: Wire | None, start: Pick, heading: Edge | None) -> Wire:
         """Return a wire along edges with its straight way on until that meets something. Without a wire it goes on from an edge.
@@ -168,26 +168,25 @@ class Ground:
         """
         edge = heading if wire is None else wire.last_edge
         if edge is None:
-            raise Refused("point-where-to-run")
+            raise Refused("Point at where the wire should run")
         stops = self.stops.of(self.drawn(), wire, edge[1:])
         way = live.extend_straight(edge, stops[stops != edge[1]])
         vertices = tuple(int(vertex) for vertex in way.vertices)
         if len(vertices) < 2:
-            raise Refused("no-way-on")
+            raise Refused("The wire cannot be extended from here")
         if wire is not None:
             vertices, heading = wire.vertices + vertices[1:], wire.heading
         return Wire("EDGES", vertices, self.points[list(vertices)], start, vertices[-1], heading=heading)
 
-
     def check(self, way: Way, wire: Wire) -> None:
         """Raise Refused if a wire is of no use as the course of a new way."""
         if not wire.leaves_trace:
-            raise Refused("wire-too-short")
+            raise Refused("Too short to become a seam: click farther away")
         # The snapped edges of a wire that is cut tell nothing about where it runs.
         if way.closes is not None and not isinstance(wire.end, FacePoint):
             known = {edge for own in self.drawn().wires if own.id != way.id for edge in own.edges()}
             if known.issuperset(wire.edges()):
-                raise Refused("way-back-along-chain")
+                raise Refused("The way back runs along the chain itself: place another seed first")
 
 
 class WaySearch(Search):
@@ -235,15 +234,15 @@ class WaySearch(Search):
     def _final(self, ordered: tuple[Wire, ...]) -> Course:
         way, was, ground = self._way, self._way.was, self._ground
         if not ordered:
-            raise Refused(Message.of("no-wire-between", start=way.start, pick=way.end))
+            raise Refused(f"No wire from {pick_name(way.start)} reaches {pick_name(way.end)}")
         wire = ordered[way.turns % len(ordered)]
         if way.turns and len(ordered) == 1:
-            raise Refused("same-edges")
+            raise Refused("All wires run along the same edges here")
         if way.turns and was is not None and self._leaves_other_way(wire, was):
             # What goes on from the edge leaves it over this vertex: arriving there is enough.
             wire = replace(wire, vertices=wire.vertices[:-1], points=wire.points[:-1])
             if len(wire.vertices) < 2:
-                raise Refused("no-other-way-to-seed")
+                raise Refused("No other path to this seed")
         if way.runs_on:
             wire = ground.run_on(self._live, wire, way.start, None)
         wire = self._kept(wire)

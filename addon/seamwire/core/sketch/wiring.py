@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base import native
-from ..base.messages import NOTHING, Message, Refused, message_of
-from ..network.picks import FacePoint
+from ..base.refused import Refused
+from ..network.picks import FacePoint, pick_name
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .courses import Course
@@ -98,20 +98,20 @@ class Wiring(Interaction):
         try:
             self.reason = self._find()
         except ValueError as error:
-            self.reason = message_of(error)
+            self.reason = str(error)
         if self.runs:
             self._extend()
 
-    def _find(self) -> Message:
+    def _find(self) -> str:
         sketch, target = self._sketch, self.target
         along, network = sketch.options.along, sketch.network
         if network.seed is None or target is None:
-            return NOTHING
+            return ""
         self.sow()
         begin = self.begin()
         assert begin is not None
         if begin.is_at(target.pick, network.seed.pick):
-            return NOTHING
+            return ""
         if along == "SURFACE" and isinstance(target.pick, tuple):
             return only_vertices(target.pick)
         closes = self._closes(network, target)
@@ -133,7 +133,7 @@ class Wiring(Interaction):
             )
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
-        return NOTHING if self._is_reached else Message.of("no-wire-reaches", pick=target.pick)
+        return "" if self._is_reached else f"No wire reaches {pick_name(target.pick)}: it is not connected to the seed"
 
     @staticmethod
     def _closes(network: Network, target: Snap) -> Request | None:
@@ -156,11 +156,11 @@ class Wiring(Interaction):
         seed = sketch.network.seed
         try:
             if seed is None:
-                raise Refused("nothing-runs-on")
+                raise Refused("Nothing to extend: place a seed first")
             heading = sketch.ground.heading(seed.after, seed.pick)
             wire = sketch.ground.run_on(sketch.engines.get("EDGES"), self.active, seed.pick, heading)
         except ValueError as error:
-            self.extended, self.reason = None, message_of(error)
+            self.extended, self.reason = None, str(error)
         else:
             self.extended = sketch.how("EDGES").of(wire)
 
@@ -236,7 +236,7 @@ class Wiring(Interaction):
         others = self.others
         if not others:
             if self.finals and not self._is_reached:
-                raise Refused(Message.of("no-wire-reaches", pick=self.target.pick))
+                raise Refused(f"No wire reaches {pick_name(self.target.pick)}: it is not connected to the seed")
             raise Refused("same-edges" if self.is_final and self.active is not None else "no-next-candidate")
         self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
         if self.runs:
@@ -276,7 +276,7 @@ class Wiring(Interaction):
         seed = network.seed
         assert seed is not None
         if begin.is_at(target.pick, seed.pick):
-            raise Refused("ends-where-it-begins")
+            raise Refused("The wire ends where it begins: click somewhere else")
         if self.reason and not self.runs:
             raise Refused(self.reason)
         is_done = self._is_decided or (self._seen and self.active_final)
@@ -315,7 +315,7 @@ class Wiring(Interaction):
         network, begin = sketch.base, self.begin()
         seed = network.seed
         if seed is None or begin is None:
-            raise Refused("nothing-runs-on")
+            raise Refused("Nothing to extend: place a seed first")
         self._extend()
         wire, target = self.active, self.target
         is_done = wire is None or self._is_decided or (self._seen and self.active_final)
@@ -358,9 +358,9 @@ def _alike(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
     )
 
 
-def only_vertices(edge: Pick) -> Message:
+def only_vertices(edge: Pick) -> str:
     """Say that wires across the surface do not end at edges."""
-    return Message.of("no-edge-across", pick=edge)
+    return f"Wires across the surface need vertices or points of faces, not {pick_name(edge)}"
 
 
 def straight_wire(

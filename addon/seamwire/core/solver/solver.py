@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 from ...terms.choices import KINDS, METRICS, Kind, MetricName
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..base import native
-from ..base.messages import NOTHING, Message, Refused
+from ..base.refused import Refused
 from ..network.picks import FacePoint
 from ..network.wires import FOLLOWS
 
@@ -83,7 +83,7 @@ def final(live: LiveWire, ask: Callable[[], Answer]) -> Answer:
     while not (found := ask()).final:
         done = done + 1 if live.wait(_SLICE) else 0
         if done > MOST_WAITS:
-            raise Refused("no-result")
+            raise Refused("The computation ended without a result: this step was dropped")
     return found
 
 
@@ -182,14 +182,15 @@ class Engines:
             self._made[metric] = [self._make_stroke(stroke) for stroke in meant if stroke is not None]
         return self._made[metric]
 
-    def warning(self, along: Along) -> Message:
+    def warning(self, along: Along) -> str:
         """Return a message if wires must lead around invalid triangles. Empty if not, or if it was returned before."""
         reports = (report for report in self.get(along).embeddings() if report is not None)
         count = max((report.invalid_left for report in reports), default=0)
         if count <= self._told:
-            return NOTHING
+            return ""
         self._told = count
-        return Message.of("invalid-triangles", count=count)
+        found, them = ("1 triangle", "it") if count == 1 else (f"{count} triangles", "them")
+        return f"{found} could not be made valid: wires go around {them}"
 
     def _tell_cuts(self) -> None:
         if self._cuts is not None:

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...terms.choices import ALONG, DEFAULT_FINISH, FINISHES
-from ..base.messages import Refused
 from ..base.nearest_vertices import NearestVertices
+from ..base.refused import Refused
 from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
 from ..network.wires import FOLLOWS, LOOP_KINDS, Wire
@@ -122,7 +122,9 @@ class Archive:
             if name != FORMAT:
                 raise ValueError
             if version != str(VERSION):
-                raise NewerError("stored-by-newer")
+                raise NewerError(
+                    "A newer version of Seamwire drew the wires of this mesh: they were not read or changed"
+                )
             (body,) = rest
             plain = zlib.decompress(base64.b64decode(body, validate=True))
             data = json.loads(plain)
@@ -133,7 +135,7 @@ class Archive:
         except NewerError:
             raise
         except DAMAGED as error:
-            raise UnreadableError("stored-unreadable") from error
+            raise UnreadableError("The wires of this mesh cannot be read: its seams were not changed") from error
         return archive
 
     def text(self, labels: Iterable[int]) -> str:

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
-from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import FacePoint, place_of
+from seamwire.core.sketch.network import Snap
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.storage.serialization import Places, wire_record
 from seamwire.terms.options import Options
 from setting import use
@@ -41,7 +41,7 @@ def at(x: float, y: float) -> FacePoint:
 
 def click(on: Sketch, *picks: object) -> None:
     for pick in picks:
-        assert on.click(pick), str(on.told)
+        assert on.click(pick), on.drawing.message
         on.wait()
 
 
@@ -91,7 +91,7 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.hover(0)
     on.wait()
     assert not on.click(0)
-    assert "Too short to become a seam" in str(on.told)
+    assert "Too short to become a seam" in on.drawing.message
     assert on.wires == () and on.seed == one
     click(on, 2)
     on.end_chain()
@@ -100,9 +100,9 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.wait()
     assert on.drag_end()
     assert on.wires == (), "the mesh would not know of it"
-    assert "A wire was removed" in str(on.told)
+    assert "A wire was removed" in on.drawing.told
     assert on.undo()
-    assert str(on.told) == ""
+    assert on.drawing.told == ""
     assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
 
 
@@ -128,12 +128,12 @@ def test_over_a_mirror_a_wire_without_edges_has_its_image() -> None:
     centred = POINTS - (1.0, 1.0, 0.0)
     surface = core.Surface(centred, TRIANGLES, grid_edges(SIZE))
     on = Sketch(
-            lambda way: core.LiveWire(surface, along=way.lower(), metric="euclidean"),
-            centred,
-            Options(along="SURFACE"),
-            edges=grid_edges(SIZE),
-            triangles=TRIANGLES,
-        )
+        lambda way: core.LiveWire(surface, along=way.lower(), metric="euclidean"),
+        centred,
+        Options(along="SURFACE"),
+        edges=grid_edges(SIZE),
+        triangles=TRIANGLES,
+    )
     use(on, finish="CUT")
     use(on, mirror=[0])
     click(on, *(FacePoint.at(np.array([x, y, 0.0]), 0, TRIANGLES, centred) for x, y in ((-0.7, -0.9), (-0.6, -0.7))))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""With Alt held, both directions are offered. Two seeds on one side of a limb close around it."""
+"""With Alt held, both directions are offered."""
 
 from __future__ import annotations
 
@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.sketch.network import Snap
 from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
+from seamwire.core.sketch.network import Snap
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
-from seamwire.terms.choices import Along
-from setting import use
 
 pytest.importorskip("seamwire_core")
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import halves, session_on
+from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Intent, Role
 from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.sketch.network import Snap
 from setting import insert, use
 from table import SIZE, Table, paper
 
@@ -219,7 +219,7 @@ def test_a_single_offer_has_no_next() -> None:
     session.hover((14, 20), loop=True)
     assert session.picture.offered.kinds == ("STRIP",)
     assert not session.next_candidate()
-    assert session.reason.code == "nothing-else-through-edge"
+    assert session.reason == "No other loop through this edge"
     session.hover(None)
     assert session.picture.offered.kinds == ()
     assert session.picture.offered.kind is None
@@ -237,7 +237,7 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
     live = table.lives["EDGES"]
     session = Sketch(lambda _: NoEdge(), table.points, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE))
     assert not session.loop((0, 20))
-    assert "no edge" in str(session.reason)
+    assert "no edge" in session.reason
     session.hover((0, 20), loop=True)
     assert session.picture.one(Role.OFFER) is None
 
@@ -253,7 +253,7 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     assert session.picture.one(Role.OFFER) is None
     assert session.computing
     assert not session.next_candidate()
-    assert session.reason.code == "no-loop-yet"
+    assert session.reason == "No loop found yet"
     table.compute()
     assert shown(session) == COMPUTED
 

@@ -97,7 +97,7 @@ def test_an_only_wire_is_not_dragged_to_nothing() -> None:
     session.end_chain()
     session.drag(3)
     assert not session.drag_to(Snap(0, "SEED"))
-    assert "remove it instead" in str(session.reason)
+    assert "remove it instead" in session.reason
     assert courses(session) == [(0, 1, 2, 3)]
     assert not session.drag_end()
     assert courses(session) == [(0, 1, 2, 3)]
@@ -109,7 +109,7 @@ def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
     session.drag(3)
     session.drag_to(4)
     assert not session.drag_to(35)
-    assert str(session.reason) == "No wire from vertex 0 reaches vertex 35"
+    assert session.reason == "No wire from vertex 0 reaches vertex 35"
     session.drag_end()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
 

@@ -11,12 +11,12 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
+from seamwire.core.network.network import Drawn
+from seamwire.core.network.picks import Edge, Pick
 from seamwire.core.sketch.dragging import Dragging
+from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Intent
 from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.network.network import Drawn
-from seamwire.core.sketch.network import Snap
-from seamwire.core.network.picks import Edge, Pick
 from seamwire.core.storage.wire_labels import Plan
 from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS
 from setting import end_line, insert, stronger, use
@@ -49,12 +49,12 @@ class Monkey:
             )
 
         self.session = Sketch(
-                live,
-                self.points,
-                edges=EDGES,
-                seams=[(40, 41), (41, 53)],
-                triangles=grid_triangles(SIZE),
-            )
+            live,
+            self.points,
+            edges=EDGES,
+            seams=[(40, 41), (41, 53)],
+            triangles=grid_triangles(SIZE),
+        )
         self.mesh = PaperMesh(self.points, EDGES, triangles=grid_triangles(SIZE), seams={(40, 41), (41, 53)})
         self.plain: set[Edge] = set(self.mesh.seams)
         """The edges that are seams with or without wires."""

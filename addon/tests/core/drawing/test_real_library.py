@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from real_sessions import session_on
 from seamwire.core.sketch.dragging import Dragging
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.sketch.network import Snap
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options
 from setting import stronger, use

@@ -10,10 +10,10 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import AROUND, RINGS, ball, caps, halves, meridian, quads_between_rings, session_on, sides, tube
+from seamwire.core.offers.edge_loops import corners
+from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.sketch.network import Snap
-from seamwire.core.offers.edge_loops import corners
 from seamwire.terms.choices import Along
 from setting import use
 
@@ -274,7 +274,7 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
     assert session.draw_stroke(points, faces_under(points))
     for along in ("EDGES", "SURFACE"):
         assert len(wire_between(session, along)) > 2
-    assert str(session.reason) == ""
+    assert session.reason == ""
 
 
 @pytest.mark.parametrize("ready", [False, True])
@@ -289,13 +289,13 @@ def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool)
     session.hover(LEFT + 3 * SIZE)
     session.draw_stroke(gate(), faces_under(gate()))
     session.wait()
-    assert "off the mesh" in str(session.reason)
+    assert "off the mesh" in session.reason
     assert not session.computing
     assert not session.click(LEFT + 3 * SIZE)
     assert len(session.wires) == 1
     assert session.undo()
     session.wait()
-    assert str(session.reason) == ""
+    assert session.reason == ""
     assert session.picture.active is not None
     assert session.click(LEFT + 3 * SIZE)
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from real_sessions import session_on
-from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import FacePoint
+from seamwire.core.sketch.network import Snap
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.options import Options
 from setting import use
 
@@ -181,4 +181,4 @@ def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Sketch
     session.hover(Snap(end, seen_along=DOWN))
     session.wait()
     assert not session.click(Snap(end, seen_along=DOWN))
-    assert "Too short to become a seam" in str(session.reason)
+    assert "Too short to become a seam" in session.reason

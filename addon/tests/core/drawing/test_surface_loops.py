@@ -117,7 +117,7 @@ def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch
     monkeypatch.setattr(FakeLive, "closed_wires", within_faces)
     session = table().session
     assert not session.loop(8)
-    assert str(session.reason) == "No edge is left for the seam of this cut"
+    assert session.reason == "No edge is left for the seam of this cut"
     assert session.wires == ()
     assert not session.picture.can_undo
     assert not session.picture.can_bend
@@ -156,14 +156,14 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
 def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     session = taken_at_8().session
     session.hover(11, bend=True)
-    assert str(session.reason) == "No closed cut leads through both points"
+    assert session.reason == "No closed cut leads through both points"
     revision = session.revision
     session.poll()
     assert session.revision == revision, "nothing new to be seen"
     assert not session.bend(11)
     assert session.edges_to_mark() == edges(*RIGHT)
     session.hover(16)
-    assert str(session.reason) == ""
+    assert session.reason == ""
 
 
 def test_bending_waits_until_it_is_computed() -> None:

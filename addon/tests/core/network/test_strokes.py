@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.sketch.picture import Role
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
+from seamwire.core.sketch.picture import Role
 from seamwire.core.storage.serialization import Archive
 from table import SIZE, Table, paper
 
@@ -101,7 +101,7 @@ def test_what_is_no_stroke_is_refused_in_words(points: list, faces: list, why: s
     session = Table().session
     revision = session.revision
     assert not session.draw_stroke(points, faces)
-    assert why in str(session.reason)
+    assert why in session.reason
     assert session.network.strokes == ()
     assert not session.picture.can_undo
     assert session.revision > revision
@@ -125,7 +125,7 @@ def test_an_erased_stroke_is_gone_until_undo() -> None:
     assert session.network.strokes == (two,)
     assert table.lives["EDGES"].strokes[-1] == (two,)
     assert not session.erase(one)
-    assert "no longer exists" in str(session.reason)
+    assert "no longer exists" in session.reason
     assert session.undo()
     assert session.network.strokes == (one, two)
 
@@ -287,7 +287,7 @@ def test_strokes_are_drawn_without_a_hand() -> None:
     assert session.draw_stroke(vertices=[0, 3], attracts=True, acts_on="both")
     assert not session.draw_stroke(vertices=[4, 4], attracts=False, acts_on="both")
     assert not session.draw_stroke(vertices=[0, 99], attracts=True, acts_on="both")
-    assert "no vertex 99" in str(session.reason)
+    assert "no vertex 99" in session.reason
     assert [one.vertices.tolist() for one in session.network.strokes] == [[0, 3]]
 
 

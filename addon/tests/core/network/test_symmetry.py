@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
 from seamwire.core.base.nearest_vertices import NearestVertices
-from seamwire.core.sketch.picture import Role
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
 from seamwire.core.network.wires import Wire
+from seamwire.core.sketch.picture import Role
 from setting import insert, use
 from table import SIZE, Table, chain
 from table import centred_points as centred

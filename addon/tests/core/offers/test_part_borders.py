@@ -13,7 +13,7 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.base.half_edges import after
-from seamwire.core.base.messages import Refused
+from seamwire.core.base.refused import Refused
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.part_borders import PartBorders
 

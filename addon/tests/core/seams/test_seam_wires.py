@@ -8,10 +8,10 @@ import itertools
 import numpy as np
 import pytest
 from real_sessions import AROUND, RINGS, ball, meridian, tube
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.wires import Wire
 from seamwire.core.seams.seam_wires import seam_chains, wires_between
+from seamwire.core.sketch.sketch import Sketch
 
 core = pytest.importorskip("seamwire_core")
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from polygons import Polygons
-from seamwire.core.seams.slide_plan import Move, places, plan
+from polygons import polygon_faces
+from seamwire.core.seams.slide_plan import Move, SlidFaces, places, plan
 
 SIZE = 9
 
 
-def grid(height: NDArray[np.float64] | None = None, quads: bool = False) -> Polygons:
+def grid(height: NDArray[np.float64] | None = None, quads: bool = False) -> SlidFaces:
     """Return a grid with vertex y * SIZE + x at (x, y), of quads or of triangles from lower left to upper right."""
     x, y = np.meshgrid(np.arange(SIZE, dtype=float), np.arange(SIZE, dtype=float))
     points = np.column_stack([x.ravel(), y.ravel(), np.zeros(SIZE * SIZE) if height is None else height])
@@ -22,8 +22,8 @@ def grid(height: NDArray[np.float64] | None = None, quads: bool = False) -> Poly
         if corner % SIZE < SIZE - 1
     ]
     if quads:
-        return Polygons(points, squares)
-    return Polygons(points, [half for a, b, c, d in squares for half in ([a, b, c], [a, c, d])])
+        return polygon_faces(points, squares)
+    return polygon_faces(points, [half for a, b, c, d in squares for half in ([a, b, c], [a, c, d])])
 
 
 def straight(start: tuple[float, float], end: tuple[float, float]) -> NDArray[np.float64]:
@@ -37,7 +37,7 @@ LINE = straight((1, 2), (7, 6))
 STAIRS = [19, 29, 30, 40, 50, 51, 61]  # along that line
 
 
-def slid(mesh: Polygons, moves: dict[int, Move]) -> NDArray[np.float64]:
+def slid(mesh: SlidFaces, moves: dict[int, Move]) -> NDArray[np.float64]:
     """Return the vertices as they are then."""
     moved = mesh.points.copy()
     moved[list(moves)] = places(mesh.points, moves.values())
@@ -62,8 +62,8 @@ def test_a_zigzag_becomes_the_line_and_the_ends_stay(quads: bool) -> None:
 def test_weights_are_those_of_the_place_in_a_polygon_around_the_vertex() -> None:
     mesh = grid()
     for vertex, move in plan(mesh, [(STAIRS, LINE)]).items():
-        assert vertex in mesh.corners(move.polygon)
-        assert set(move.corners) <= set(mesh.corners(move.polygon))
+        assert vertex in mesh.corners[move.polygon]
+        assert set(move.corners) <= set(mesh.corners[move.polygon])
         assert sum(move.weights) == pytest.approx(1.0)
         assert min(move.weights) >= 0.0
 
@@ -104,8 +104,8 @@ def test_no_face_turns_over_or_gets_thin(quads: bool) -> None:
     moves = plan(mesh, [(chain, curve)])
     assert moves
     moved = slid(mesh, moves)[:, :2]
-    for polygon in {polygon for vertex in chain for polygon in mesh.polygons_at(vertex)}:
-        rim = moved[list(mesh.corners(polygon))]
+    for polygon in {polygon for vertex in chain for polygon in mesh.at[vertex]}:
+        rim = moved[list(mesh.corners[polygon])]
         u, v = rim - np.roll(rim, 1, axis=0), np.roll(rim, -1, axis=0) - rim
         assert (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).min() > 0.05
 

@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from paper_mesh import PaperMesh
-from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.network import Drawn
-from seamwire.core.sketch.network import Network, Snap, linked
 from seamwire.core.network.picks import Edge
+from seamwire.core.sketch.network import Network, Snap, linked
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.storage.serialization import WAS_SEAM
 from setting import use
 from table import SIZE, Table, chain, courses, paper, wire

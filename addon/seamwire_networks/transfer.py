@@ -1,38 +1,68 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws wires between seeds that were placed on another mesh, and tells how sure each seed is.
+"""Networks on other meshes than they were drawn on: their seeds are placed there, and wires drawn between them.
 
-If a wire would run elsewhere than its original, it gets as few further seeds as keep it near. The result names the seeds, wires and
-strokes that cannot be placed.
+If a wire would run elsewhere than its original, it gets as few further seeds as keep it near. The result tells how sure each seed is, and
+names the seeds, wires and strokes that cannot be placed.
 """
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ...core.base.components import groups
-from ...core.base.geometry import nearest_on_segments
-from ...core.base.messages import Message
-from ...core.network.strokes import Stroke, for_library, on_mesh
-from ...core.network.wires import LOOP_KINDS, Wire
-from ...core.solver.solver import LiveMaker, by_number, final
-from ...core.storage.serialization import unpacked
-from ...terms.choices import DEFAULT_FINISH
-from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
-from .network_file import Course, NetworkFile
-from .placing import DOUBTFUL, PLACED, NearestSurface, Placed, Progress, Shape, tell
+from .network_file import Course, NetworkFile, NetworkFileError
+from .placing import (
+    DOUBTFUL,
+    PLACED,
+    Landmarks,
+    Moments,
+    NearestSurface,
+    Placed,
+    Progress,
+    Shape,
+    Similarity,
+    tell,
+    within,
+)
+from .tool import (
+    CLAMP_PERCENTILE,
+    DEFAULT_FINISH,
+    LOOP_KINDS,
+    STRENGTHS,
+    LiveMaker,
+    MirrorImages,
+    Network,
+    Stroke,
+    Symmetry,
+    Wire,
+    by_number,
+    final,
+    for_library,
+    groups,
+    load,
+    nearest_on_segments,
+    on_mesh,
+    unpacked,
+)
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import LiveCandidate, LiveWire, NearestPoints
 
-    from ...core.network.picks import Edge
-    from ...core.solver.solver import Answer, Candidate, LiveWire
-    from ...terms.choices import Along
+    from .tool import Edge
+
+Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
+"""How seeds are placed: by vertex numbers, on the nearest surface, or by distances to pairs of vertices. AUTO takes numbers if the topology
+is the same, otherwise pairs if there are any, otherwise the surface."""
+
+_TURNED = 0.5
+"""The confidence of the surest seed if the network might as well lie elsewhere: doubtful."""
 
 STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
@@ -43,7 +73,7 @@ _MOST_LOST = 0.3
 _SLICE = 0.05
 """Seconds for which live wires are waited for before the progress is told again."""
 
-DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST"))
+DEGREES = ((0.9, "sure"), (0.6, "likely"), (DOUBTFUL, "doubtful"), (0.0, "not placed"))
 """The least confidence of each degree of a seed."""
 
 
@@ -58,16 +88,13 @@ class PlacedSeed:
 
     @property
     def degree(self) -> str:
-        """How sure it is."""
         return next(degree for least, degree in DEGREES if self.confidence >= least)
 
     @property
-    def message(self) -> Message:
+    def text(self) -> str:
         """Where it is, and how sure that is."""
-        seed, degree, confidence = self.source, self.degree, self.confidence
-        if self.vertex is None:
-            return Message.of("seed-lost", seed=seed, degree=degree, confidence=confidence)
-        return Message.of("seed-placed", seed=seed, vertex=self.vertex, degree=degree, confidence=confidence)
+        where = "" if self.vertex is None else f" at vertex {self.vertex}"
+        return f"seed {self.source}{where}: {self.degree} ({self.confidence:.2f})"
 
 
 @dataclass
@@ -77,8 +104,8 @@ class Transfer:
     wires: list[Wire] = field(default_factory=list)  # connected as in the source
     strokes: list[Stroke] = field(default_factory=list)
     seeds: list[PlacedSeed] = field(default_factory=list)  # all seeds of the network, each once
-    lost: list[Message] = field(default_factory=list)  # what could not be placed, and why
-    doubts: list[Message] = field(default_factory=list)  # what else the artist should check
+    lost: list[str] = field(default_factory=list)  # what could not be placed, and why
+    doubts: list[str] = field(default_factory=list)  # what else the artist should check
     added: int = 0  # the number of seeds between those of the network
 
     @property
@@ -88,9 +115,9 @@ class Transfer:
         return {degree: counts[degree] for _, degree in DEGREES if degree in counts}
 
     @property
-    def problems(self) -> list[Message]:
+    def problems(self) -> list[str]:
         """Everything that the artist should check: doubts, what is lost, and seeds that are not even likely."""
-        unsure = (seed.message for seed in self.seeds if seed.confidence < DEGREES[1][0])
+        unsure = (seed.text for seed in self.seeds if seed.confidence < DEGREES[1][0])
         return [*self.doubts, *self.lost, *unsure]
 
     @property
@@ -98,6 +125,150 @@ class Transfer:
         """(k, 2) the edges that wires mark, sorted, each once."""
         edges = sorted({edge for wire in self.wires for edge in wire.claims()})
         return np.array(edges, dtype=np.int32).reshape(-1, 2)
+
+
+def transfer(
+    file: NetworkFile,
+    target: Shape,
+    *,
+    place: Place = "AUTO",
+    mirror: int | None = None,
+    align: bool = True,
+    source: Shape | None = None,
+    pairs: ArrayLike = (),
+    topology: bool = False,
+    live: LiveMaker | None = None,
+    progress: Progress = lambda _: True,
+) -> Transfer:
+    """Find what a network is on a mesh.
+
+    Parameters
+    ----------
+    mirror
+        The axis, 0 to 2, over which the network is mirrored first, or None. Then it is placed on the surface.
+    align
+        On the surface: whether the network may be turned, scaled and moved onto the mesh, if it does not lie on it.
+    source
+        The mesh that the network was drawn on. PAIRS needs it.
+    pairs
+        (k, 2) vertices of the source and of the target that are the same point of the shape, three pairs at least.
+    topology
+        By numbers: whether mirror images are found by how the mesh is connected, see `Symmetry`.
+
+    Raises
+    ------
+    ValueError
+        If the mesh, the pairs or the choices do not fit.
+    seamwire_core.Cancelled
+        If `progress` returns False.
+    """
+    pairs = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    if mirror is not None and place in {"NUMBERS", "PAIRS"}:
+        raise ValueError("Mirror needs Place: Nearest Surface")
+    if place == "AUTO":
+        same = mirror is None and not file.problem_with(target)
+        by_pairs = len(pairs) and source is not None and mirror is None
+        place = "NUMBERS" if same else "PAIRS" if by_pairs else "SURFACE"
+    progress = _Told(progress)
+    tell(progress, 0.0)
+    if place == "NUMBERS":
+        return _by_numbers(file, target, topology)
+    live = live or LiveMaker(target)
+    if place == "SURFACE":
+        return _by_surface(file, target, mirror, align, live, progress)
+    if source is None:
+        raise ValueError("Pairs need the source object")
+    return _by_pairs(file, source, target, pairs, live, progress)
+
+
+class _Told:
+    """A progress that remembers which fraction it was told last."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress, self._done = progress, 0.0
+
+    def __call__(self, fraction: float) -> bool:
+        """Tell the finished fraction of the whole work, and return whether to continue."""
+        self._done = fraction
+        return self._progress(fraction)
+
+    def go_on(self, _fraction: float) -> bool:
+        """Return whether to continue, while work goes on whose part of the whole is not known."""
+        return self._progress(self._done)
+
+
+def _check(file: NetworkFile, shape: Shape) -> None:
+    if problem := file.problem_with(shape):
+        raise NetworkFileError(problem)
+
+
+def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
+    _check(file, target)
+    symmetry = Symmetry(target.points, target.edges, target.where.to_object, topology, target.triangles)
+    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target))))
+    wires = list(network.wires)
+    ends = dict.fromkeys(
+        vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])
+    )
+    seeds = [PlacedSeed(vertex, (), vertex, 1.0) for vertex in ends]
+    return Transfer(wires, file.strokes_on(target), seeds)
+
+
+def _by_surface(
+    file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: _Told
+) -> Transfer:
+    """Return a network on a mesh with about the same shape and any topology."""
+    surface, doubt = NearestSurface(target, progress.go_on), ""
+    way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
+    if align and file.courses:
+        points = way.of(np.concatenate([course.places for course in file.courses]))
+        moments = file.origin.moments
+        moved = Moments(way.of(moments.middle[None])[0], way.of_normals(moments.axes))
+        aligned, doubt = surface.align(points, moved, progress)
+        way = aligned.after(way)
+
+    def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
+        own = way.after(Similarity.mirroring(*axes))
+        spacing = own.scale * course.spacing
+        placed = surface.place(own.of(course.places), own.of_normals(course.normals), spacing, part)
+        return replace(placed, confidence=np.minimum(placed.confidence, _TURNED)) if doubt else placed
+
+    def stroke(points: NDArray[np.float64]) -> Placed:
+        moved = way.of(points)
+        return surface.place(moved, np.zeros_like(moved), float(target.spacing.mean()))
+
+    found = Tracing(file, target, surface, live, progress).run(place, stroke, place)
+    found.doubts += [doubt] if doubt else []
+    return found
+
+
+def _by_pairs(
+    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker, progress: _Told
+) -> Transfer:
+    """Return a network on a mesh with another pose or proportion and any topology."""
+    _check(file, source)
+    surface = NearestSurface(target, progress.go_on)
+    landmarks = Landmarks(source, target, pairs, within(progress, 0.0, PLACED))
+    tell(progress, PLACED)
+
+    @functools.cache
+    def vertices() -> NearestPoints:
+        # Triangles without area, so that vertices without faces are found as well.
+        triangles = np.repeat(np.arange(len(source.places)), 3).reshape(-1, 3)
+        return load().NearestPoints(source.places, triangles, progress=progress.go_on)
+
+    def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
+        return vertices().find(points, progress=progress.go_on)[0].astype(np.int64)
+
+    def place(course: Course, axes: tuple[int, ...]) -> Placed:
+        if axes:
+            return landmarks.place(nearest(Similarity.mirroring(*axes).of(course.places)))
+        return landmarks.place(np.array(course.record["vertices"], dtype=np.int64))
+
+    def stroke(points: NDArray[np.float64]) -> Placed:
+        return landmarks.place(nearest(points))
+
+    return Tracing(file, target, surface, live, progress, stray=2.0 * STRAY).run(place, stroke)
 
 
 @dataclass(frozen=True)
@@ -113,7 +284,6 @@ class _CoursePart:
     creases: NDArray[np.float64]
 
     def at(self, rows: Sequence[int]) -> _CoursePart:
-        """Return a piece with some of its vertices."""
         return replace(
             self,
             vertices=[self.vertices[row] for row in rows],
@@ -124,7 +294,6 @@ class _CoursePart:
         )
 
     def part(self, begin: int, end: int) -> _CoursePart:
-        """Return the piece from one row to another."""
         return self.at(range(begin, end + 1))
 
     @property
@@ -151,7 +320,7 @@ class Tracing:
     ) -> None:
         self._file, self._target, self._surface, self._make = file, target, surface, live
         self._stray, self._done, self._progress = stray, PLACED, progress
-        self._lives: dict[tuple[Along, float], LiveWire] = {}
+        self._lives: dict[tuple[str, float], LiveWire] = {}
         self._result = Transfer()
         self._library_strokes: list[object] = []
         self._vertex_of: dict[Key, int | None] = {}
@@ -171,7 +340,7 @@ class Tracing:
         for number, record in enumerate(self._file.strokes, start=1):
             stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
             if stroke is None:
-                result.lost.append(Message.of("stroke-lost", number=number))
+                result.lost.append(f"stroke {number}: could not be placed")
             else:
                 result.strokes.append(stroke)
         self._library_strokes = [for_library(stroke) for stroke in result.strokes]
@@ -256,24 +425,24 @@ class Tracing:
     def _wires(self, piece: _CoursePart) -> list[Wire]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
-            return self._lose(piece, "course-lost", part=lost)
+            return self._lose(piece, f"{lost:.0%} of its course could not be placed on this mesh")
         if piece.vertices[0] == piece.vertices[-1]:
             return self._loop(piece)
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
-            return self._lose(piece, "end-lost")
+            return self._lose(piece, "one of its seeds could not be placed on this mesh")
         start, end = ends
         if start == end:
-            return self._lose(piece, "ends-meet", vertex=start)
+            return self._lose(piece, f"both its seeds would be at vertex {start} of this mesh")
         live = self._live(piece)
         found = self._between(live, piece, start, end)
         if found is None:
-            return self._lose(piece, "no-way", start=start, end=end)
+            return self._lose(piece, f"no wire leads from vertex {start} to vertex {end}")
         self._result.added += len(found) - 1
         return found
 
-    def _lose(self, piece: _CoursePart, why: str, **values: object) -> list[Wire]:
-        self._result.lost.append(Message.of(why, wire=piece.name, **values))
+    def _lose(self, piece: _CoursePart, why: str) -> list[Wire]:
+        self._result.lost.append(f"{piece.name}: {why}")
         return []
 
     def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> list[Wire] | None:
@@ -293,16 +462,18 @@ class Tracing:
                 return [*first, *second]
         return [self._wire(piece, candidate, follow)]
 
-    def _final(self, live: LiveWire, ask: Callable[[], Answer]) -> Answer:
+    def _final(self, live: LiveWire, ask: Callable[[], Any]) -> Any:  # noqa: ANN401 - what it asks for
         """Return the final answer of live wires. Raise `seamwire_core.Cancelled` if the work is to stop meanwhile."""
 
-        def ask_unless_stopped() -> Answer:
+        def ask_unless_stopped() -> object:
             tell(self._progress, self._done)
             return ask()
 
         return final(live, ask_unless_stopped)
 
-    def _best(self, live: LiveWire, end: int, places: NDArray[np.float64]) -> tuple[int, Candidate, float, int] | None:
+    def _best(
+        self, live: LiveWire, end: int, places: NDArray[np.float64]
+    ) -> tuple[int, LiveCandidate, float, int] | None:
         """Return which of both wires runs nearer to a course, it, how far it strays, and from which place most."""
         found = self._final(live, lambda: live.wires(end))
         best = None
@@ -314,7 +485,7 @@ class Tracing:
                 best = follow, candidate, off, worst
         return best
 
-    def _wire(self, piece: _CoursePart, candidate: Candidate, follow: int) -> Wire:
+    def _wire(self, piece: _CoursePart, candidate: LiveCandidate, follow: int) -> Wire:
         record = piece.course.record
         vertices = tuple(candidate.vertices.tolist())
         return Wire(
@@ -334,12 +505,12 @@ class Tracing:
         rows = [0, count // 3, 2 * count // 3] if count >= 3 else [0]
         corners = list(dict.fromkeys(self._vertex(piece, row) for row in rows))
         if len(corners) < 3:
-            return self._lose(piece, "loop-too-small")
+            return self._lose(piece, "smaller than an edge of this mesh")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
             found = self._between(live, piece.part(begin, end), one, other)
             if found is None:
-                return self._lose(piece, "no-way", start=one, end=other)
+                return self._lose(piece, f"no wire leads from vertex {one} to vertex {other}")
             wires += found
         self._result.added += len(wires)
         return wires

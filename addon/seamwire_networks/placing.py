@@ -11,10 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.base import native
-from ...core.base.geometry import Moments, creases, triangle_normals, vertex_normals
-from ...core.base.messages import NOTHING, Message, Refused
-from ...core.storage.serialization import Places
+from .tool import Places, area_normals, load, units
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -50,12 +47,66 @@ _APART = 0.5
 def tell(progress: Progress, fraction: float) -> None:
     """Tell the finished fraction. Raise `seamwire_core.Cancelled` if the work is to stop."""
     if not progress(fraction):
-        raise native.load().Cancelled
+        raise load().Cancelled
 
 
 def within(progress: Progress, begin: float, end: float) -> Progress:
     """Return the progress of a part of the work, which is finished from one fraction of the whole to another."""
     return lambda fraction: progress(begin + (end - begin) * fraction)
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Where a surface lies, whatever its triangles are: its center of area, (3,), and its principal axes, (3, 3).
+
+    The longest axis comes first. Each is as long as the standard deviation along it.
+    """
+
+    middle: NDArray[np.float64]
+    axes: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> Moments:
+        """Return those of a mesh; of one without an area, zeros."""
+        corners, areas = points[triangles], 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
+        total = float(areas.sum())
+        if not total > 0.0:
+            return cls(np.zeros(3), np.zeros((3, 3)))
+        middles = corners.mean(axis=1)
+        middle = areas @ middles / total
+        off = np.concatenate([corners.transpose(1, 0, 2), middles[None]]) - middle
+        # Over a triangle the square is that of its corners and thrice that of its middle, each a twelfth and nine twelfths.
+        weights = np.array([1.0, 1.0, 1.0, 9.0]) / 12.0
+        square = np.einsum("c,m,cmi,cmj->ij", weights, areas, off, off) / total
+        values, vectors = np.linalg.eigh(square)
+        axes = (vectors * np.sqrt(np.maximum(values, 0.0))).T[::-1]
+        return cls(middle, axes)
+
+    @property
+    def size(self) -> float:
+        """The standard deviation in all directions together."""
+        return float(np.linalg.norm(self.axes))
+
+
+def _vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return unit normals of (n, 3) vertices, weighted by the areas of their (m, 3) triangles. Vertices without triangles have zero."""
+    rows, normals = triangles.reshape(-1), area_normals(points, triangles)
+    return units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
+
+
+def _creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,)."""
+    normals = units(area_normals(points, triangles))
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
+    order = np.lexsort((sides[:, 1], sides[:, 0]))
+    shared = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
+    one, other = order[shared], order[shared + 1]
+    cosines = np.einsum("ij,ij->i", normals[one // 3], normals[other // 3])
+    angles = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
+    largest = np.zeros(len(points))
+    for column in sides[one].T:
+        np.maximum.at(largest, column, angles)
+    return largest
 
 
 @dataclass(frozen=True)
@@ -69,7 +120,6 @@ class Shape:
 
     @cached_property
     def where(self) -> Places:
-        """Where its vertices are."""
         return Places(self.points, np.eye(3) if self.to_object is None else self.to_object)
 
     @property
@@ -84,12 +134,12 @@ class Shape:
     @cached_property
     def normals(self) -> NDArray[np.float64]:
         """(n, 3) of the vertices, in object coordinates."""
-        return vertex_normals(self.places, self.triangles)
+        return _vertex_normals(self.places, self.triangles)
 
     @cached_property
     def creases(self) -> NDArray[np.float64]:
         """(n,) the largest angle between triangles at each vertex, in degrees."""
-        return creases(self.places, self.triangles)
+        return _creases(self.places, self.triangles)
 
     @cached_property
     def spacing(self) -> NDArray[np.float64]:
@@ -111,7 +161,6 @@ class Shape:
 
     @cached_property
     def moments(self) -> Moments:
-        """Where its surface lies."""
         return Moments.of(self.places, self.triangles)
 
     @cached_property
@@ -134,11 +183,12 @@ def _onto(source: Moments, target: Moments, scale: float, signs: tuple[int, int]
     return Similarity(scale, rotation, target.middle - scale * rotation @ source.middle)
 
 
-def doubt_between(way: Similarity, rival: Similarity) -> Message:
-    """Return the message that a rival lays a network elsewhere."""
+def doubt_between(way: Similarity, rival: Similarity) -> str:
+    """Return the sentence that a rival lays a network elsewhere."""
     cosine = 0.5 * (np.trace(rival.rotation @ way.rotation.T) - 1.0)
     turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-    return Message.of("fits-turned", degrees=round(float(turn))) if turn >= _TURNED else Message.of("fits-moved")
+    where = f"if rotated by {turn:.0f} degrees" if turn >= _TURNED else "in another place"
+    return f"the network also fits {where}: check its position, or give pairs"
 
 
 @dataclass(frozen=True)
@@ -184,11 +234,9 @@ class Similarity:
         return cls(1.0, np.diag(signs), np.zeros(3))
 
     def of(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return where (k, 3) points are then."""
         return self.scale * points @ self.rotation.T + self.shift
 
     def of_normals(self, normals: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return what way (k, 3) normals point then."""
         return normals @ self.rotation.T
 
     def after(self, other: Similarity) -> Similarity:
@@ -208,15 +256,15 @@ class NearestSurface:
 
     def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:  # `go_on` gets any fraction
         if not len(shape.triangles):
-            raise Refused("no-visible-faces")
+            raise ValueError("The mesh has no visible faces to place wires on")
         self._shape, self._go_on = shape, go_on
         self._trees: dict[int | None, tuple[NDArray[np.int64], NearestPoints]] = {}
-        self._normals = triangle_normals(shape.places, shape.triangles)
+        self._normals = units(area_normals(shape.places, shape.triangles))
 
     @cached_property
     def parts(self) -> NDArray[np.int32]:
         """(m,) which of the parts that hang together each triangle belongs to."""
-        shape, core = self._shape, native.load()
+        shape, core = self._shape, load()
         whole = core.Surface(shape.places, shape.triangles, shape.edges, progress=self._go_on)
         return np.asarray(core.face_segments(whole, np.empty((0, 2), dtype=np.int32)))
 
@@ -230,7 +278,7 @@ class NearestSurface:
         """
         if part not in self._trees:
             rows = np.arange(len(self._shape.triangles)) if part is None else np.flatnonzero(self.parts == part)
-            tree = native.load().NearestPoints(self._shape.places, self._shape.triangles[rows], progress=self._go_on)
+            tree = load().NearestPoints(self._shape.places, self._shape.triangles[rows], progress=self._go_on)
             self._trees[part] = rows, tree
         rows, tree = self._trees[part]
         triangles, points, gaps = tree.find(places, normals, progress=self._go_on)
@@ -238,8 +286,8 @@ class NearestSurface:
 
     def align(
         self, points: NDArray[np.float64], moments: Moments, progress: Progress = lambda _: True
-    ) -> tuple[Similarity, Message]:
-        """Find what brings points of a mesh onto this one, and return a message if something else lays them elsewhere about as well.
+    ) -> tuple[Similarity, str]:
+        """Find what brings points of a mesh onto this one, and what to tell if something else lays them elsewhere about as well.
 
         They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
         a reflection (Besl, McKay, A method for registration of 3-D shapes, 1992). The best result is taken. The points, (k, 3) in object
@@ -249,7 +297,7 @@ class NearestSurface:
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
         best, least = Similarity.mirroring(), self._gap(some)
         if least <= _ALIGNED * size or len(points) < 3:
-            return best, NOTHING
+            return best, ""
         own = self._shape.moments
         scale = own.size / moments.size if moments.size > 0.0 else 1.0
         starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
@@ -274,7 +322,7 @@ class NearestSurface:
             if gap <= max(_RIVAL * least, 1e-6 * size)
             and np.linalg.norm(way.of(some) - best.of(some), axis=1).max() > _ELSEWHERE * size
         ]
-        return best, doubt_between(best, min(rivals, key=lambda way: way[0])[1]) if rivals else NOTHING
+        return best, doubt_between(best, min(rivals, key=lambda way: way[0])[1]) if rivals else ""
 
     def _gap(self, points: NDArray[np.float64]) -> float:
         gaps = self.nearest(points)[2]
@@ -340,11 +388,11 @@ class Landmarks:
     def __init__(self, source: Shape, target: Shape, pairs: ArrayLike, progress: Progress = lambda _: True) -> None:
         numbers = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         if len(numbers) < 3:
-            raise Refused("too-few-pairs", count=len(numbers))
+            raise ValueError(f"Transfer by pairs needs at least three pairs of vertices, but got {len(numbers)}")
         for shape, column, what in ((source, 0, "source"), (target, 1, "target")):
             outside = numbers[~np.isin(numbers[:, column], shape.triangles), column]
             if len(outside):
-                raise Refused("pair-off-mesh", vertex=outside[0], what=what)
+                raise ValueError(f"Pairs: vertex {outside[0]} is not on a visible face of the {what}")
         self._source, self._target = source, target
         self._go_on = within(progress, 1.0, 1.0)
         self._here = _distances(source, numbers[:, 0], within(progress, 0.0, 0.5))
@@ -404,7 +452,7 @@ def _landmark_confidence(off: float, rival: float) -> float:
 
 def _distances(shape: Shape, vertices: NDArray[np.int64], progress: Progress) -> NDArray[np.float64]:
     """Return the distances along the surface from all vertices to some, (n, k), in object coordinates; inf: there is no way."""
-    core = native.load()
+    core = load()
     steps = np.linspace(0.0, 1.0, 4 + len(vertices)).tolist()
     parts = iter([within(progress, *step) for step in itertools.pairwise(steps)])
     surface = core.Surface(shape.places, shape.triangles, shape.edges, progress=next(parts))

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..words.reports import count
-from .core.network_file import NetworkFile
-from .core.placing import Shape, tell
-from .core.transfer import transfer
+from .network_file import NetworkFile
+from .placing import Shape, tell
+from .tool import count
+from .transfer import transfer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -20,13 +20,9 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..core.network.picks import Edge
-    from ..core.network.wires import Wire
-    from ..mesh.object_session import ObjectSession
-    from ..mesh.settings import SeamwireSettings
-    from .core.placing import Progress
-    from .core.tracing import Transfer
-    from .core.transfer import Place
+    from .placing import Progress
+    from .tool import Edge, ObjectSession, Wire
+    from .transfer import Place, Transfer
 
 _SHAPE = ("points", "triangles", "edges", "to_object")
 """What describes a `Shape`, in the order of its parameters."""
@@ -41,7 +37,7 @@ class Source:
     groups: Mapping[str, int] = field(default_factory=dict)  # see `group_middles`
 
     @classmethod
-    def of(cls, mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> Source:
+    def of(cls, mesh: ObjectSession, settings: bpy.types.PropertyGroup, more: Iterable[Wire] = ()) -> Source:
         """Return the network of an object and more wires, with all that is known of its mesh."""
         return cls(network_of(mesh, settings, more), shape_of(mesh), group_middles(mesh.obj))
 
@@ -70,7 +66,6 @@ class Source:
 
 
 def shape_of(mesh: ObjectSession) -> Shape:
-    """Return a mesh as it takes part in a transfer."""
     arrays = mesh.arrays
     return Shape(arrays.points, arrays.triangles, arrays.edges, arrays.to_object)
 
@@ -85,7 +80,7 @@ def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list
     return found
 
 
-def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
+def network_of(mesh: ObjectSession, settings: bpy.types.PropertyGroup, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
     network = replace(mesh.session.network, wires=(*mesh.session.wires, *more))
     name = mesh.cage.data.name
@@ -145,10 +140,9 @@ def carry_over(
     )
 
 
-def write(target: ObjectSession, found: Transfer) -> tuple[int, int]:
-    """Mark the seams that `carry_over` found. Return how many wires the mesh did not have, and how many edges became seams."""
+def add(target: ObjectSession, found: Transfer) -> int:
+    """Add what `carry_over` found to a mesh, which can be written then. Return how many wires it did not have."""
     there = {wire.vertices for wire in target.session.wires}
     new = [wire for wire in found.wires if wire.vertices not in there]
     target.add(new, found.strokes)
-    marked, _ = target.write(target.plan())
-    return len(new), marked
+    return len(new)

@@ -11,19 +11,23 @@ from typing import TYPE_CHECKING, ClassVar
 import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from ..mesh.registration import classes, menu_entry, together
-from ..mesh.settings import settings
-from ..operators.edit_mesh_operator import EditMeshOperator, changing
-from ..operators.steps import Step, Stepwise, end_all
-from ..words.reports import DEGREE_NAMES, count
+from .tool import (
+    EditMeshOperator,
+    Step,
+    Stepwise,
+    classes,
+    count,
+    menu_entry,
+    settings,
+    together,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-    from ..core.network.wires import Wire
-    from ..mesh.object_session import ObjectSession
     from .carry import Source
-    from .core.tracing import Transfer
+    from .tool import ObjectSession, Wire
+    from .transfer import Transfer
 
 SUFFIX = ".json"
 _PLACE_ITEMS = (
@@ -56,11 +60,9 @@ class _Placing(Stepwise):
     )
 
     def source_steps(self, context: bpy.types.Context) -> Generator[Step, None, Source]:
-        """Yield the steps that read the network, and return it."""
         raise NotImplementedError
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Yield the steps that read and place the network, then write its wires."""
         from .carry import carry_over
 
         pairs = _pairs(self.pairs)
@@ -73,24 +75,23 @@ class _Placing(Stepwise):
         return self._write(context, mesh, found)
 
     def _write(self, context: bpy.types.Context, mesh: ObjectSession, found: Transfer) -> set[str]:
-        from .carry import write
+        from .carry import add
 
         problems = found.problems
-        for text in map(str, problems[:_MOST_TOLD]):
+        for text in problems[:_MOST_TOLD]:
             self.report({"WARNING"}, text[:1].upper() + text[1:])
         if len(problems) > _MOST_TOLD:
             self.report({"WARNING"}, f"{len(problems) - _MOST_TOLD} more seeds are doubtful or missing")
         if not found.wires and not found.strokes:
             raise ValueError("No wire could be placed on this mesh")
-        with changing(context):
-            wires, marked = write(mesh, found)
+        wires = add(mesh, found)
+        marked = self.write(context, [mesh])
         parts = [count(wires, "wire")]
         if wires < len(found.wires):
             parts.append(f"{len(found.wires) - wires} already present")
         parts.append(f"{count(marked, 'edge')} marked")
         if found.seeds:
-            degrees = (f"{number} {DEGREE_NAMES[degree]}" for degree, number in found.degrees.items())
-            parts.append(f"seeds: {', '.join(degrees)}")
+            parts.append(f"seeds: {', '.join(f'{number} {degree}' for degree, number in found.degrees.items())}")
         if found.added:
             parts.append(f"{count(found.added, 'seed')} added in between")
         if found.lost:
@@ -144,7 +145,6 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that have an effect."""
         layout = self.layout
         layout.use_property_split = True
         layout.prop_search(self, "source", bpy.data, "objects")
@@ -158,7 +158,6 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
         surface.prop(self, "align")
 
     def source_steps(self, context: bpy.types.Context) -> Generator[Step, None, Source]:
-        """Read the wires and the seams of the other object."""
         from .carry import Source, seam_wires
 
         obj = self._object(context)
@@ -170,7 +169,6 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
         return source
 
     def _object(self, context: bpy.types.Context) -> bpy.types.Object:
-        """Return the object with the seams. Raise ValueError if it is ambiguous."""
         target = context.active_object
         if self.source:
             obj = bpy.data.objects.get(self.source)
@@ -196,7 +194,6 @@ class MESH_OT_seamwire_load_network(_Placing, bpy.types.Operator, ImportHelper):
     _is_chosen = False
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Let the artist choose a file."""
         self._is_chosen = True
         return ImportHelper.invoke(self, context, event)
 
@@ -208,7 +205,6 @@ class MESH_OT_seamwire_load_network(_Placing, bpy.types.Operator, ImportHelper):
         return super().invoke(context, None)
 
     def source_steps(self, _context: bpy.types.Context) -> Generator[Step, None, Source]:
-        """Read the file."""
         from .carry import Source
 
         yield Step("Reading the file")
@@ -259,8 +255,7 @@ class MESH_OT_seamwire_repeat(Stepwise, bpy.types.Operator):
     )
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Find matching places on the active object, then add the missing wires."""
-        from .core.repeats import missing_wires
+        from .repeats import missing_wires
 
         mesh = self.open_mesh(context.active_object)
         groups = self._groups(mesh)
@@ -279,8 +274,7 @@ class MESH_OT_seamwire_repeat(Stepwise, bpy.types.Operator):
         return {"FINISHED"}
 
     def _groups(self, mesh: ObjectSession) -> list[list[Wire]]:
-        """Return the wires to repeat, with connected wires in one list."""
-        from .core.repeats import connected_groups
+        from .repeats import connected_groups
 
         wires = [wire for wire in mesh.session.wires if wire.along == "EDGES"]
         wanted = wires
@@ -294,22 +288,14 @@ class MESH_OT_seamwire_repeat(Stepwise, bpy.types.Operator):
         return connected_groups(wanted, wires)
 
 
-class VIEW3D_MT_seamwire_network(bpy.types.Menu):
-    """Save wires, load them, or draw them on other meshes"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_network"
-    bl_label = "Network"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Show what is done with all wires of a mesh."""
-        layout = self.layout
-        layout.operator_context = "INVOKE_DEFAULT"
-        layout.operator("mesh.seamwire_load_network", text="Load...")
-        layout.operator("mesh.seamwire_save_network", text="Save...")
-        layout.separator()
-        layout.operator("mesh.seamwire_transfer", text="Transfer")
-        layout.operator("mesh.seamwire_repeat", text="Repeat")
-        layout.operator("mesh.seamwire_take_over", text="From Seams")
+def _draw_network(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    layout = menu.layout
+    layout.operator_context = "INVOKE_DEFAULT"
+    layout.operator("mesh.seamwire_repeat", text="Repeat")
+    layout.operator("mesh.seamwire_transfer", text="Transfer")
+    layout.separator()
+    layout.operator("mesh.seamwire_load_network", text="Load...")
+    layout.operator("mesh.seamwire_save_network", text="Save...")
 
 
 def _draw_import(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -326,9 +312,8 @@ register, unregister = together(
         MESH_OT_seamwire_load_network,
         MESH_OT_seamwire_save_network,
         MESH_OT_seamwire_repeat,
-        VIEW3D_MT_seamwire_network,
     ),
-    (lambda: None, end_all),
+    menu_entry("VIEW3D_MT_seamwire_network", _draw_network),
     menu_entry("TOPBAR_MT_file_import", _draw_import),
     menu_entry("TOPBAR_MT_file_export", _draw_export),
 )

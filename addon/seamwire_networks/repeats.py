@@ -13,18 +13,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.base.components import groups
 from .placing import tell, within
+from .tool import groups
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
-    from ...core.base.mesh_arrays import Arrays
-    from ...core.network.picks import Edge, Pick
-    from ...core.network.wires import Wire
     from .placing import Progress
+    from .tool import Arrays, Edge, Pick, Wire
 
 _TOLERANCES = (0.01, 0.05)
 """Parts by which lengths of edges may differ; the second is asked where with the first nothing is found."""

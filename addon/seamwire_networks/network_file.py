@@ -16,27 +16,30 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...core.base.geometry import Moments
-from ...core.base.messages import NOTHING, Message, Refused
-from ...core.network.picks import undirected
-from ...core.storage import serialization
-from ...core.storage.serialization import Record
-from ...terms.choices import METRICS, MetricName
-from ...terms.options import CLAMP_PERCENTILE
-from .placing import Shape
+from .placing import Moments, Shape
+from .tool import (
+    CLAMP_PERCENTILE,
+    DAMAGED,
+    METRICS,
+    checked_wire,
+    packed,
+    stored_stroke,
+    stroke_record,
+    unpacked,
+    wire_of,
+    wire_record,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...core.network.network import Drawn
-    from ...core.network.strokes import Stroke
-    from ...core.network.wires import Wire
+    from .tool import Record, Stroke, Wire
 
 FORMAT = "seamwire-network"
 VERSION = 1
 
 
-class NetworkFileError(Refused):
+class NetworkFileError(ValueError):
     """A file cannot be used."""
 
 
@@ -66,12 +69,12 @@ class Course:
         return float(lengths.mean()) if len(lengths) else 0.0
 
     @property
-    def name(self) -> Message:
+    def name(self) -> str:
         """How it is called in messages: by its seeds."""
         record = self.record
         if record["closed"]:
-            return Message.of("loop-name", vertex=record["vertices"][0])
-        return Message.of("wire-name", start=_text_of(record["start"]), end=_text_of(record["end"]))
+            return f"loop at vertex {record['vertices'][0]}"
+        return f"wire {_text_of(record['start'])} to {_text_of(record['end'])}"
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,7 @@ class NetworkFile:
     """The content of a file."""
 
     origin: Origin
-    metric: MetricName
+    metric: str
     clamp: float  # the percentile of feature strengths that counts as the strongest
     courses: tuple[Course, ...]  # by their vertices
     strokes: tuple[Record, ...]  # see `serialization.stroke_record`
@@ -91,14 +94,14 @@ class NetworkFile:
         shape: Shape,
         *,
         name: str = "",
-        metric: MetricName = "feature",
+        metric: str = "feature",
         clamp: float = CLAMP_PERCENTILE,
     ) -> NetworkFile:
         """Return what there is to keep of a network on a mesh with a name; wires that clear seams are not. See the class."""
         # A mesh does not keep the order of its wires.
         courses = []
         for wire in sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices):
-            record = serialization.wire_record(wire, shape.where)
+            record = wire_record(wire, shape.where)
             chain = list(wire.vertices)
             courses.append(Course(record, shape.places[chain], shape.normals[chain], shape.creases[chain]))
         return cls(
@@ -106,9 +109,7 @@ class NetworkFile:
             metric,
             clamp,
             tuple(courses),
-            tuple(
-                serialization.stroke_record(stroke, shape.where, order) for order, stroke in enumerate(network.strokes)
-            ),
+            tuple(stroke_record(stroke, shape.where, order) for order, stroke in enumerate(network.strokes)),
         )
 
     # As text
@@ -147,15 +148,17 @@ class NetworkFile:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:
             if isinstance(error, json.JSONDecodeError):
-                raise NetworkFileError("file-no-json-at", line=error.lineno) from error
-            raise NetworkFileError("file-no-json") from error
+                raise NetworkFileError(f"The file is damaged: line {error.lineno} is not valid JSON") from error
+            raise NetworkFileError("The file is damaged: it is not valid JSON") from error
         if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise NetworkFileError("file-no-network")
+            raise NetworkFileError("The file contains no Seamwire network")
         version = data.get("version")
         if type(version) is not int or version < 1:
-            raise NetworkFileError("file-no-version")
+            raise NetworkFileError("The file is damaged: its version is not a number")
         if version > VERSION:
-            raise NetworkFileError("file-by-newer", version=version, known=VERSION)
+            raise NetworkFileError(
+                f"A newer version of Seamwire wrote the file: it has version {version}, and this one reads up to {VERSION}"
+            )
         try:
             where = "mesh"
             stored = data["mesh"]
@@ -173,35 +176,32 @@ class NetworkFile:
             for number, row in enumerate(data.get("strokes", []), start=1):
                 where = f"stroke {number}"
                 strokes.append(_stroke_record(row, origin.vertices))
-        except serialization.DAMAGED as error:
-            raise NetworkFileError("file-damaged", where=where) from error
+        except DAMAGED as error:
+            raise NetworkFileError(f"The file is damaged: {where}") from error
         return cls(origin, metric, clamp, tuple(courses), tuple(strokes))
 
     # On the same mesh
 
-    def problem_with(self, shape: Shape) -> Message:
+    def problem_with(self, shape: Shape) -> str:
         """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is."""
         if len(shape.points) != self.origin.vertices:
-            return Message.of("other-vertices", count=self.origin.vertices, here=len(shape.points))
-        there = {undirected((one, two)) for one, two in shape.edges.tolist()}
+            return f"The network belongs to a mesh with {self.origin.vertices} vertices, but this one has {len(shape.points)}"
+        there = {tuple(sorted(edge)) for edge in shape.edges.tolist()}
         for course in self.courses:
             vertices = course.record["vertices"]
             around = [*vertices, vertices[0]] if course.record["closed"] else vertices
-            for edge in map(undirected, itertools.pairwise(around)):
-                if edge not in there:
-                    return Message.of("other-edges", pick=edge)
-        return NOTHING
+            for one, two in map(sorted, itertools.pairwise(around)):
+                if (one, two) not in there:
+                    return f"The network belongs to a mesh with other edges: edge {one}-{two} is missing here"
+        return ""
 
     def wires(self, shape: Shape) -> list[Wire]:
         """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`."""
-        return [serialization.wire_of(course.record, shape.where) for course in self.courses]
+        return [wire_of(course.record, shape.where) for course in self.courses]
 
     def strokes_on(self, shape: Shape) -> list[Stroke]:
         """Return its strokes on the mesh that it was drawn on, by numbers."""
-        found = (
-            serialization.stored_stroke(record, shape.where, [tuple(record["corners"][0][:2])])
-            for record in self.strokes
-        )
+        found = (stored_stroke(record, shape.where, [tuple(record["corners"][0][:2])]) for record in self.strokes)
         return [stroke for stroke in found if stroke is not None]
 
 
@@ -253,7 +253,7 @@ def _wire_row(course: Course) -> Mapping[str, object]:
     record = course.record
     row = {name: value for name, value in record.items() if name not in _PACKED}
     if "curve" in record:
-        row["curve"] = _rounded(serialization.unpacked(record["curve"]))
+        row["curve"] = _rounded(unpacked(record["curve"]))
     row["places"] = _rounded(course.places)
     row["normals"] = _rounded(course.normals, 3)
     row["creases"] = _rounded(course.creases, 0)
@@ -276,16 +276,16 @@ def _course(row: Mapping[str, Any], count: int) -> Course:
         curve = np.array(row["curve"], dtype=np.float64)
         if curve.ndim != 2 or curve.shape[1] != 3:
             raise ValueError
-        record["curve"], record["places"] = serialization.packed(curve), serialization.packed(places)
+        record["curve"], record["places"] = packed(curve), packed(places)
     picks = [record["start"], record["end"], record["heading"] or [], record.get("through") or []]
     flat = [one for pick in (*picks, vertices) for one in (pick if isinstance(pick, list) else [pick])]
     if any(number >= count for number in flat):
         raise ValueError
-    return Course(serialization.checked_wire(record), places, normals, angles)
+    return Course(checked_wire(record), places, normals, angles)
 
 
 def _stroke_row(record: Record) -> Mapping[str, object]:
-    points = {name: _rounded(serialization.unpacked(record[name])) for name in ("points", "places")}
+    points = {name: _rounded(unpacked(record[name])) for name in ("points", "places")}
     return {**record, **points, "radius": None if record["radius"] is None else _rounded(record["radius"])}
 
 
@@ -296,4 +296,4 @@ def _stroke_record(row: Mapping[str, Any], count: int) -> Record:
     if row["vertex_count"] != count or max(vertices) >= count or not math.isfinite(row["eta"]):
         raise ValueError
     points = {"points": _points(row["points"], len(corners)), "places": _points(row["places"], len(vertices))}
-    return {**row, **{name: serialization.packed(values) for name, values in points.items()}}
+    return {**row, **{name: packed(values) for name, values in points.items()}}
