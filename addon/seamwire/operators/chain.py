@@ -12,7 +12,8 @@ import numpy as np
 
 from ..core.network.picks import FacePoint
 from ..core.sketch.change import Change
-from ..core.sketch.network import Snap, edges_after
+from ..core.network.network import Drawn, edges_after
+from ..core.sketch.network import Snap
 from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-        from ..solver.solver import LiveWire
+    from ..solver.solver import LiveWire
     from .courses import Course, Search
     from .network import Network, Request, Snap
     from .sketch import Sketch

@@ -41,7 +41,7 @@ def at(x: float, y: float) -> FacePoint:
 
 def click(on: Sketch, *picks: object) -> None:
     for pick in picks:
-        assert on.click(pick), on.drawing.message
+        assert on.click(pick), on.told
         on.wait()
 
 
@@ -91,7 +91,7 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.hover(0)
     on.wait()
     assert not on.click(0)
-    assert "Too short to become a seam" in on.drawing.message
+    assert "Too short to become a seam" in on.told
     assert on.wires == () and on.seed == one
     click(on, 2)
     on.end_chain()
@@ -100,9 +100,9 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.wait()
     assert on.drag_end()
     assert on.wires == (), "the mesh would not know of it"
-    assert "A wire was removed" in on.drawing.told
+    assert "A wire was removed" in on.told
     assert on.undo()
-    assert on.drawing.told == ""
+    assert on.told == ""
     assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
 
 

@@ -230,7 +230,7 @@ def test_a_line_too_short_says_so_and_is_no_step() -> None:
     drawing = session()
     draw(drawing, ROW[0], line((2, 5), (2.2, 5)))
     assert drawing.wires == ()
-    assert "farther" in drawing.drawing.message
+    assert "farther" in drawing.told
     assert not drawing.picture.can_undo
 
 
@@ -345,7 +345,7 @@ def test_across_the_surface_lines_end_where_they_are_led_to() -> None:
     draw(drawing, at(2, 2), line((2, 2), (8.8, 2.4)), Snap(at(9, 3), "SEAM"))
     assert drawing.wires[-1].end == at(9, 3)
     assert drawing.line_begin(Snap((at(2, 2), at(3, 2)))) is False
-    assert "not edge" in drawing.drawing.message
+    assert "not edge" in drawing.told
 
 
 def test_across_the_surface_a_line_goes_on_from_the_live_wire() -> None:
