@@ -30,7 +30,7 @@ _NAMES = {
     "core.base.native": "load",
     "core.base.newest": "Newest",
     "core.fields.color_maps": "ColorMap colors steps",
-    "core.network.network": "Network",
+    "core.network.drawn": "Drawn",
     "core.network.picks": "Edge Pick",
     "core.network.strokes": "Stroke for_library on_mesh",
     "core.network.symmetry": "MirrorImages Symmetry",

@@ -82,7 +82,7 @@ def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list
 
 def network_of(mesh: ObjectSession, settings: bpy.types.PropertyGroup, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
-    network = replace(mesh.session.network, wires=(*mesh.session.wires, *more))
+    network = replace(mesh.session.drawn, wires=(*mesh.session.wires, *more))
     name = mesh.cage.data.name
     return NetworkFile.of(network, shape_of(mesh), name=name, metric=settings.metric, clamp=settings.clamp)
 

@@ -35,9 +35,9 @@ from .tool import (
     DEFAULT_FINISH,
     LOOP_KINDS,
     STRENGTHS,
+    Drawn,
     LiveMaker,
     MirrorImages,
-    Network,
     Stroke,
     Symmetry,
     Wire,
@@ -205,7 +205,7 @@ def _check(file: NetworkFile, shape: Shape) -> None:
 def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     _check(file, target)
     symmetry = Symmetry(target.points, target.edges, target.where.to_object, topology, target.triangles)
-    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target))))
+    network = Drawn(tuple(map(MirrorImages(symmetry).completed, file.wires(target))))
     wires = list(network.wires)
     ends = dict.fromkeys(
         vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.strokes import on_mesh
 from seamwire.core.sketch.sketch import Sketch

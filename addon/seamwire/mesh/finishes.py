@@ -107,13 +107,13 @@ def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[
     # The stored wire has the positions of its vertices. It is written again with the same curve.
     after = ObjectSession(mesh.obj)
     curve_of = {wire.vertices: wire.points for wire in wires}
-    network = after.session.network
+    drawn = after.session.drawn
     kept = [
         wire.changed(points=curve_of[wire.vertices], faces=None) if wire.vertices in curve_of else wire
-        for wire in network.wires
+        for wire in drawn.wires
     ]
-    after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
-    _go_on_with(after, mesh.session.offering.cuts.taken(mesh.session.network))
+    after.session.adopt(replace(drawn, wires=tuple(kept)), after.plain_seams)
+    _go_on_with(after, mesh.session.offering.cuts.taken(mesh.session.drawn))
     after.write(after.plan())
     return after, len(moves)
 
@@ -153,7 +153,7 @@ def cut(
     crumb
         The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
     """
-    taken = mesh.session.offering.cuts.taken(mesh.session.network)
+    taken = mesh.session.offering.cuts.taken(mesh.session.drawn)
     skipped = [number for number, _ in plan.left_out if number < len(wires)]
     wires = [wire for number, wire in enumerate(wires) if number not in skipped]
     if kept:
@@ -172,7 +172,7 @@ def cut(
 
 def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
     """Let closed cuts that were taken before the mesh was changed be bent on it."""
-    own = (each.of(mesh.session.network) for each in taken)
+    own = (each.of(mesh.session.drawn) for each in taken)
     mesh.session.offering.cuts.recall(each for each in own if each is not None)
 
 

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.network.network import edges_after
+from ..core.network.drawn import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.surface_loops import CutMemory
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.network.network import Drawn
+    from ..core.network.drawn import Drawn
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..terms.options import Auto
@@ -251,7 +251,7 @@ class ObjectSession:
 
     def _has_same_numbers(self) -> bool:
         """Return whether what is drawn finds its vertices where they were, in a mesh with more or fewer vertices."""
-        network = self.session.network
+        network = self.session.drawn
         of_wires = (vertex for wire in network.wires for edge in wire.claims() for vertex in edge)
         of_strokes = (vertex for stroke in network.strokes for vertex in stroke.corners.reshape(-1).tolist())
         used = sorted({*of_wires, *of_strokes})
@@ -272,7 +272,7 @@ class ObjectSession:
         self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()
-        self.session.offering.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
+        self.session.offering.cuts.recall(_taken_cuts.recall(self.session.drawn, self.places))
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
@@ -325,7 +325,7 @@ class ObjectSession:
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
         return wire_labels.plan(
-            self.session.network,
+            self.session.drawn,
             self._labels,
             self._found,
             self._archive,
@@ -354,28 +354,28 @@ class ObjectSession:
 
     def adopt(self, plan: wire_labels.Plan) -> None:
         """Let the session go on with the network that was written."""
-        self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
-        _taken_cuts.keep(self.session.offering.cuts.taken(self.session.network), self.session.network, self.places)
+        self.session.adopt(plan.network, self.plain_seams)
+        _taken_cuts.keep(self.session.offering.cuts.taken(self.session.drawn), self.session.drawn, self.places)
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
         session = self.session
         drawn = (*session.wires, *wires)
         strokes = (
-            *session.network.strokes,
+            *session.drawn.strokes,
             *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes),
         )
-        session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
+        session.adopt(replace(session.drawn, wires=drawn, strokes=strokes), self.plain_seams)
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
         session = self.session
-        network = replace(session.network, wires=(*session.wires, *wires), seed=None)
+        network = replace(session.drawn, wires=(*session.wires, *wires))
         taken = {edge for wire in network.wires for edge in wire.edges()}
         rest = [pair for pair in self.plain_seams.tolist() if (min(pair), max(pair)) not in taken]
         self.plain_seams = np.array(rest, dtype=np.int32).reshape(-1, 2)
         session.adopt(network, self.plain_seams)
-        self._found = replace(self._found, network=session.network)
+        self._found = replace(self._found, network=session.drawn)
 
     def finder(self) -> Callable[[Sequence[float]], FacePoint]:
         """Return what finds the point of the visible surface that is nearest to a place in object coordinates.
@@ -399,13 +399,6 @@ class ObjectSession:
 
         return find
 
-    def triangles_at(self, points: NDArray[np.float64]) -> NDArray[np.int32]:
-        """Return the triangles nearest to points, (k, 3), in the session's coordinates."""
-        if not len(points) or not len(self.arrays.triangles):
-            return np.zeros(len(points), dtype=np.int32)
-        rows, _, _ = native.load().NearestPoints(self.arrays.points, self.arrays.triangles).find(points)
-        return np.asarray(rows, dtype=np.int32)
-
     def drop_changes(self, network: Drawn) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
-        self.session.adopt(replace(network, seed=None), self.plain_seams)
+        self.session.adopt(network, self.plain_seams)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, TypeVar
 import bpy
 import numpy as np
 
+from ..core.network.drawn import Drawn, edges_after
 from ..core.network.picks import FacePoint
 from ..core.sketch.change import Change
-from ..core.network.network import Drawn, edges_after
 from ..core.sketch.network import Snap
 from ..mesh import finishes
 from ..mesh import settings as chosen
@@ -121,11 +121,12 @@ class Chain:
             self.go(Cue.UNPEEK)
 
     def begin_anew(self) -> None:
-        """Keep the drawn wires as a separate chain, and begin another one."""
-        self.keep()
-        self._switch_back()
+        """Keep the drawn wires as a separate chain, if they are computed, and begin another one."""
         if self.stage is Stage.ENDING:
             self.go(Cue.BEGIN)
+        if self._is_final:
+            self.keep()
+            self._switch_back()
 
     def switch(self, name: str, value: object) -> None:
         """Change a setting until the chain ends."""
@@ -149,50 +150,48 @@ class Chain:
             hold.cancel()
 
     def cancel_drags(self) -> bool:
-        """Cancel what a button holds, and released drags that still wait. Return whether there was something."""
+        """Cancel what a button holds. Return whether there was something."""
         is_held = self.stage is Stage.HOLDING
         self.let_go()
         return any([view.session.cancel() for view in edited.views()]) or is_held
 
     @property
-    def waits(self) -> bool:
-        """Whether a click waits for its wire."""
-        return any(view.session.waiting for view in edited.views())
+    def _is_final(self) -> bool:
+        return not any(view.session.waiting for view in edited.views())
 
     def cancel(self) -> None:
-        """Cancel what is dragged. If nothing is, forget the clicks that wait, and end."""
+        """Cancel what is dragged. If nothing is, end. While the end waits for wires, keep them as they are drawn."""
         self.begin()
+        if self.stage is Stage.ENDING:
+            for view in edited.views():
+                view.session.finish(wait=False)
         if not self.cancel_drags():
-            self._end(wait=False)
+            self.end()
 
     def end_now(self) -> None:
         """End before Blender has the event, because it may change the mesh. Blender stands still until the last wire is computed."""
         self.begin()
-        self._end()
+        self.go(Cue.END)
 
     def end(self) -> None:
-        """Let go of everything that is live, as soon as the last wire is computed."""
+        """End as soon as all wires are computed."""
         self.begin()
-        if self.waits:
-            if self.stage is not Stage.ENDING:
-                self.go(Cue.WAIT)
-            self.say("Ending as soon as the last wire is computed")
-            return
-        self._end()
-
-    def _end(self, wait: bool = True) -> None:
-        self.go(Cue.END)
         for view in edited.views():
-            view.session.end_chain(wait)
+            view.session.end_chain()
+        if self._is_final:
+            self.go(Cue.END)
+        elif self.stage is not Stage.ENDING:
+            self.go(Cue.WAIT)
+            self.say("Ending when all wires are computed: Esc keeps them as they are drawn")
 
     def settle(self) -> None:
-        """End if nothing is left to wait for."""
-        if self.stage is Stage.ENDING and not self.waits:
+        """End if nothing is live, and all wires are computed."""
+        if self.stage is Stage.ENDING:
             self.end()
         elif self.stage is Stage.DRAWING:
-            sessions = [view.session for view in edited.views()]
-            if not any(one.seed is not None or one.waiting or one.cursor.drag for one in sessions):
-                self.go(Cue.SETTLE)
+            sketches = [view.session for view in edited.views()]
+            if not any(one.network.seed is not None or one.is_held for one in sketches):
+                self.go(Cue.SETTLE if self._is_final else Cue.WAIT)
 
     # The objects
 
@@ -208,7 +207,7 @@ class Chain:
         if self.drawn_on is not view:
             if self.drawn_on is not None:
                 self.keep()
-            self.drawn_on, self._before = view, view.session.network
+            self.drawn_on, self._before = view, view.session.drawn
             self._seams = view.mesh.arrays.seams
 
     def note(self, title: str) -> None:
@@ -316,16 +315,14 @@ class Chain:
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
         drawn_on = [] if self.drawn_on is None else [self.drawn_on]
         for view in dict.fromkeys((*drawn_on, *edited.views())):
-            end = view.session.end_chain
-            if not self.attempt(end, not at_once):
-                self.attempt(end, False)
-            drawing = view.session.drawing
-            for told in (drawing.failure, drawing.warning):
-                if told:
-                    self.notices.add("WARNING", told)
-            drawing.failure = drawing.warning = ""
+            finish, reports = view.session.finish, view.session.reports
+            if not self.attempt(finish, not at_once):
+                self.attempt(finish, False)
+            for told in dict.fromkeys(reports):
+                self.notices.add("WARNING", told)
+            reports.clear()
         view = self.drawn_on
-        change = None if view is None else Change(self._before, view.session.network)
+        change = None if view is None else Change(self._before, view.session.drawn)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
         if view is None or change is None or not (self._is_saved or change):
@@ -385,10 +382,10 @@ class Chain:
 
     def _must_cut(self, view: ObjectView) -> bool:
         """Return whether a wire lies within a face and can be cut. Until it is cut, no edge can store it."""
-        network = view.session.network
-        cuts = [wire for wire in network.wires if wire.cuts and Change(self._before, network).finishes(wire)]
+        sketch = view.session
+        cuts = [wire for wire in sketch.drawn.wires if wire.cuts and Change(self._before, sketch.drawn).finishes(wire)]
         # A wire that ends within a face is cut once the chain has led out of the face.
-        is_inside = network.seed is not None and isinstance(network.seed.pick, FacePoint)
+        is_inside = isinstance(sketch.seed, FacePoint)
         if is_inside or all(len(wire.vertices) > 1 for wire in cuts):
             return False
         with suppress(ValueError):

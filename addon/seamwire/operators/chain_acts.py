@@ -92,8 +92,7 @@ def release(chain: Chain, given: Given) -> None:
     if not hold.is_drag and hold.snap is not None:
         chain.session.click(hold.snap)
         title = undo_steps.DRAW
-    # The wires that were live before a line become a separate chain, with a separate step in Blender's undo.
-    elif hold.is_drag and (not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain, hold)):
+    elif hold.is_drag:
         title = hold.end()
     if title:
         chain.note(title)
@@ -101,20 +100,6 @@ def release(chain: Chain, given: Given) -> None:
         chain.say("Drag over the mesh to draw a stroke")
     if given.place is not None:
         rehover(chain, given.place)
-
-
-def _keep_chain(chain: Chain, line: LineHold) -> bool:
-    """Keep the live wires as a separate chain before a line. Return whether the line is still on the mesh, which may be cut now."""
-    view = edited.front
-    assert view is not None
-    chain.keep()
-    if view not in edited.views():
-        view = edited.of(view.obj)
-        if not line.draw_again(view):
-            chain.notices.add("WARNING", "The mesh was cut, and the line has no place on it: draw it again")
-            return False
-    chain.draw_on(view)
-    return True
 
 
 # Presses
@@ -148,7 +133,7 @@ def click(chain: Chain, given: Given) -> None:
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
         chain.note(undo_steps.DRAW)
-    elif not session.cursor.will_be_live and snap.to in {"SEED", "WIRE"}:
+    elif session.network.seed is None and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
         chain.go(Cue.PRESS, SeedHold(event, view, place, snap))
@@ -256,7 +241,7 @@ def change_strength(chain: Chain, given: Given) -> None:
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
     name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
-    if session.cursor.drag:
+    if session.is_held:
         chain.say("Finish moving the seed first")
     elif strength == session.options.strength:
         chain.say(f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is")

@@ -17,7 +17,7 @@ class Stage(Enum):
     PEEKING = "shows the loop under the mouse, while a key is held"
     DRAWING = "is drawn, and no button is held"
     HOLDING = "is drawn, and a button is held"
-    ENDING = "ends as soon as its last wire is computed"
+    ENDING = "ends as soon as all wires are computed"
     OVER = "has nothing live any more"
     CLOSED = "is in the mesh, or dropped"
 

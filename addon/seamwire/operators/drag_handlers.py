@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.drawing.line import LineGesture
-from ..core.drawing.seed_drag import SeedDrag
 from ..words.keys import MODIFIERS
 from . import undo_steps
 
@@ -61,11 +59,6 @@ class Hold:
             self.is_drag = True
         return self.drag(place)
 
-    def go_to(self, view: ObjectView) -> None:
-        """Hold the same place of an object that was read anew."""
-        self._view, self._session = view, view.session
-        self.snap = view.snap(self._place.view, self._place.cursor)
-
     def cancel(self) -> None:
         """Cancel without a change."""
         raise NotImplementedError
@@ -102,7 +95,7 @@ class SeedHold(Hold):
 
     def cancel(self) -> None:
         """Let the seed go back."""
-        self._session.cancel(SeedDrag)
+        self._session.cancel()
 
 
 class Trail:
@@ -148,7 +141,6 @@ class LineHold(Hold):
     """The surface: a click adds a seed, or keeps the live wire; a drag draws a line that wires follow."""
 
     _trail: Trail | None = None
-    _line: LineGesture | None = None
 
     def begin(self) -> bool:
         """Begin a line."""
@@ -167,41 +159,19 @@ class LineHold(Hold):
         trail = self._trail
         assert trail is not None
         trail.to(place)
-        if self._session.is_held is None:
+        if not self._session.is_held:
             return False  # a key has ended the line in the meantime
         points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
         return self._session.line_to(points, triangles, self._view.snap(place.view, place.cursor))
 
-    def starts_chain(self) -> bool:
-        """Take the line out of the session. Return whether the live wires are a separate chain, which is kept before the line."""
-        session = self._session
-        self._line = session.cursor.line_release()
-        live = session.seed is not None and not session.waiting
-        return self._line is not None and live and not session.goes_on_from(self.snap)
-
-    def draw_again(self, view: ObjectView) -> bool:
-        """Draw the line once more on its object, which has other vertices now. Return whether that is possible."""
-        trail, self._line = self._trail, None
-        assert trail is not None
-        self.go_to(view)
-        if self.snap is None or not self._session.line_begin(self.snap):
-            return False
-        points = np.array(trail.points).reshape(-1, 3)
-        end = view.snap(trail.last.view, trail.last.cursor)
-        self._session.line_to(points, view.mesh.triangles_at(points), end)
-        self._line = self._session.cursor.line_release()
-        return self._line is not None
-
     def end(self) -> str:
         """Keep the wires that follow the line."""
-        if self._line is None:
-            return ""
-        self._session.line_keep(self._line)
+        self._session.line_end()
         return undo_steps.DRAW
 
     def cancel(self) -> None:
-        """Forget the line. A seed that was released before stays."""
-        self._session.cancel(LineGesture)
+        """Forget the line."""
+        self._session.cancel()
 
 
 class StrokeHold(Hold):

@@ -15,7 +15,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.islands.islands import IslandMaker
-from ..core.network.network import edges_after
+from ..core.network.drawn import edges_after
 from ..core.picking.picker import Picker
 from ..core.picking.plain import REACH
 from ..core.seams.gaps import GapFinder

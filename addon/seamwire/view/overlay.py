@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from .layers import Layer
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
+_DASHES = 12
+"""Of the line between the seeds of a wire that has no course, or not yet."""
 _KEY_OPACITY = 0.8
 _PLATE_OPACITY = 0.7
 """Of the plate under the corner's text. White text stays legible on a white background."""
@@ -75,6 +77,12 @@ class Sheet:
         pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
         if len(pairs):
             self._pieces.setdefault(style, []).append(self._pose.points[pairs])
+
+    def dashes(self, style: Style, start: Pick, end: Pick) -> None:
+        """Add a dashed line between two picks."""
+        ends = np.array([place_of(start, self._pose.points), place_of(end, self._pose.points)])
+        parts = np.linspace(0.0, 1.0, 2 * _DASHES)[:, None]
+        self._pieces.setdefault(style, []).append((ends[0] + parts * (ends[1] - ends[0])).reshape(-1, 2, 3))
 
     def dot(self, style: Style, pick: Pick) -> None:
         """Add a dot at a pick."""
@@ -256,6 +264,8 @@ class Overlay:
                 sheet.curve(looks.other, shown.wire.points)
             elif shown.role in LIVE:
                 self._add_live_wire(sheet, shown)
+        for start, end in picture.missing:
+            sheet.dashes(looks.computing, start, end)
         if picture.line is not None:
             sheet.curve(looks.line, picture.line)
         styles = {SeedRole.LIVE: looks.live_seed, SeedRole.CLOSING: looks.closing, SeedRole.HOVERED: looks.hovered_seed}

@@ -73,7 +73,7 @@ def hints(status: Status) -> list[Hint]:
     found: list[Hint] = []
     work = picture.work
     if work.computing:
-        waiting = f", {count(work.waiting, 'click')} waiting" if work.waiting else ""
+        waiting = f", {count(work.waiting, 'wire')} left" if work.waiting else ""
         found.append(("SORTTIME", f"Computing {min(99.0, 100.0 * work.progress):.0f} %{waiting}"))
     if status.message:
         found.append(("INFO", status.message))

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import FOLLOWS, Wire

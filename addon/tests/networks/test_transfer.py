@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from seamwire.core.base import native
 from seamwire.core.base.geometry import nearest_on_segments
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire_networks.network_file import NetworkFile, NetworkFileError

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 from seamwire.core.islands.square_use import CostlyIsland, SquareUse
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.network.wires import split
 from seamwire.core.sketch.change import Change

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from .network import Drawn
+    from .drawn import Drawn
     from .picks import Edge
     from .symmetry import Symmetry
     from .wires import Wire

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base.half_edges import HalfEdges, after, among
 from ..base.nearest_vertices import NearestVertices
-from .network import Drawn, net_effect
+from .drawn import Drawn, net_effect
 from .wires import Wire
 
 if TYPE_CHECKING:

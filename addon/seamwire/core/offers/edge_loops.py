@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ...terms.choices import LoopKind
-    from ..network.network import Drawn
+    from ..network.drawn import Drawn
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
     from ..sketch.network import Snap

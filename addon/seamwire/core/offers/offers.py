@@ -10,7 +10,7 @@ from ..network.wires import Wire
 
 if TYPE_CHECKING:
     from ...terms.choices import LoopKind
-    from ..network.network import Drawn
+    from ..network.drawn import Drawn
     from ..network.picks import Pick
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...terms.choices import LoopKind
-    from ..network.network import Drawn
+    from ..network.drawn import Drawn
     from ..network.picks import Pick
     from ..solver.solver import ClosedCut, Engines, LiveWire
     from ..storage.serialization import Places

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ...terms.choices import FINISHES
 
 if TYPE_CHECKING:
-    from ..network.network import Drawn
+    from ..network.drawn import Drawn
     from ..network.wires import Wire
 
 

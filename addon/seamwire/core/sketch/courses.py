@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from ..solver.solver import LiveWire
-    from .network import Key, Network
+    from .network import CourseKey, Network
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +63,8 @@ class Courses:
     """
 
     def __init__(self) -> None:
-        self._known: WeakKeyDictionary[Key, Course] = WeakKeyDictionary()
-        self._searches: WeakKeyDictionary[Key, Search] = WeakKeyDictionary()
+        self._known: WeakKeyDictionary[CourseKey, Course] = WeakKeyDictionary()
+        self._searches: WeakKeyDictionary[CourseKey, Search] = WeakKeyDictionary()
 
     def of(self, request: Request) -> Course:
         found = self._known.get(request.key)
@@ -98,8 +98,8 @@ class Courses:
             done.append(own)
         return done, False
 
-    def give_up(self, requests: Iterable[Request], reason: str) -> None:
-        """Let requests stay as they are shown, because nothing more is found."""
+    def give_up(self, requests: Iterable[Request], reason: str = "") -> None:
+        """Let requests stay as they are shown, because nothing more is looked for."""
         for own in requests:
             shown = self.of(own)
             self._end(own, Course(shown.wires, final=True, reason=reason))

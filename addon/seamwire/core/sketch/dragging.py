@@ -18,12 +18,11 @@ from .wiring import only_vertices
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..network.network import Drawn
     from ..network.picks import Edge, End, Pick
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
+    from .board import Board
     from .network import Link, Network, Request, Snap
-    from .sketch import Sketch
 
 
 class Leg:
@@ -32,17 +31,17 @@ class Leg:
     Raises ValueError if that is not part of the surface.
     """
 
-    def __init__(self, sketch: Sketch, network: Network, own: Request, wire: Wire, moving: End) -> None:
-        ground = sketch.ground
+    def __init__(self, board: Board, network: Network, own: Request, wire: Wire, moving: End) -> None:
+        ground = board.ground
         self.own, self.wire, self.moving = own, wire, moving
         self.stays = wire.end if moving == "start" else wire.start
-        self.live = sketch.engines.get(wire.along).fork()
+        self.live = board.engines.get(wire.along).fork()
         if moving == "end":
             heading = ground.heading(own.goes_on, wire.start) if wire.along == "EDGES" else None
             self.begin = Begin.of(self.stays, wire.along, heading)
         else:
             after = network.after(own) if wire.along == "EDGES" else None
-            self.begin = backwards(self.stays, wire, None if after is None else sketch.wire(after.id), wire.along)
+            self.begin = backwards(self.stays, wire, None if after is None else board.wire(after.id), wire.along)
         self.begin.sow(self.live, wire.along)
 
     def request(self, pick: Pick, meets: Link | None) -> Way:
@@ -68,32 +67,31 @@ class Dragging(Interaction):
 
     Attributes
     ----------
-    moved
-        The wires that follow, as they run now.
+    moved, shown
+        The wires that follow, as they run now, and all wires with them.
     """
 
-    def __init__(self, sketch: Sketch, grip: Snap) -> None:
-        super().__init__(sketch)
+    def __init__(self, board: Board, grip: Snap) -> None:
+        super().__init__(board)
         self._seed = grip.pick
-        self._before = sketch.base.joined(grip, sketch.points, sketch.is_final)
+        self._before = board.base.joined(grip, board.points, board.is_final)
         ends = self._before.at(grip.pick)
         live = self._before.seed
         if not ends and (live is None or undirected(live.pick) != undirected(grip.pick)):
             raise Refused(f"No seed to move at {pick_name(grip.pick)}")
         self._legs: list[Leg] = []
         for own, end in ends:
-            wire = sketch.wire_of(own)
+            wire = board.wire_of(own)
             if wire is None or not isinstance(own, (Given, Way)):
                 raise Refused("This wire is still being computed: try again in a moment")
             # Wires that were cut go across the surface anew.
             wire = wire.uncut()
             if wire.along != own.along:
                 own = Given.of(wire)
-            self._legs.append(Leg(sketch, self._before, own, wire, end))
+            self._legs.append(Leg(board, self._before, own, wire, end))
         self._courses: tuple[Begun, ...] = ()
-        self.moved = tuple(leg.wire for leg in self._legs)
+        self._show(tuple(leg.wire for leg in self._legs))
         self._is_final = self._is_solved = True
-        self._shown: tuple[object, Drawn] | None = None
 
     @property
     def place(self) -> Pick:
@@ -153,17 +151,17 @@ class Dragging(Interaction):
             found = leg.live.wires(for_live(target, way.along))
             self._is_final &= found.final
             self._is_solved &= found.solved
-            ways, leading = ways_of(found, way, leg.begin, avoid, self._sketch.points)
+            ways, leading = ways_of(found, way, leg.begin, avoid, self._board.points)
             ordered = choices(way, ways, leading)
             if not ordered:
                 missing.append(leg)
-                begun.append(Begun(way, Course((leg.wire,)), WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
+                begun.append(Begun(way, Course((leg.wire,)), WaySearch(way, self._board.ground, leg.live, leg.begin)))
                 continue
             wire = way.how.of(replace(ordered[0], id=way.id))
             moved.append(wire)
             shown = wire if found.solved else leg.wire
             course = Course((shown,), final=found.final, choices=ordered if found.final else ())
-            begun.append(Begun(way, course, WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
+            begun.append(Begun(way, course, WaySearch(way, self._board.ground, leg.live, leg.begin)))
             if isinstance(pick, tuple) and direction is None:
                 # Another wire leaves in the direction of one that arrives, and goes the other way from one that leaves.
                 meets = way.id, leg.moving
@@ -172,7 +170,7 @@ class Dragging(Interaction):
         if self._is_solved and missing:
             return f"No wire from {pick_name(missing[0].stays)} reaches {pick_name(pick)}"
         if self._is_solved:
-            self.moved = tuple(moved)
+            self._show(tuple(moved))
         return ""
 
     def _arriving_first(self) -> list[Leg]:
@@ -199,19 +197,17 @@ class Dragging(Interaction):
 
     @property
     def _live(self) -> tuple[Pick, ...]:
-        place = self._sketch.seed_place
+        place = self._board.seed_place
         return () if place is None else (place,)
 
-    @property
-    def shown(self) -> Drawn:
-        """The drawn wires, with those that follow the seed where they are now."""
-        sketch, moved = self._sketch, {wire.id: wire for wire in self.moved}
-        if self._shown is None or self._shown[0] is not self.moved:
-            requests = (own for own in self._before.requests if own.id in moved or own.id not in self.ids)
-            wires = (moved.get(own.id) or sketch.wire_of(own) for own in requests)
-            complete = (sketch.images.completed(wire) for wire in wires if wire is not None)
-            self._shown = self.moved, replace(sketch.drawn, wires=tuple(complete))
-        return self._shown[1]
+    def _show(self, moved: tuple[Wire, ...]) -> None:
+        """Show the wires that follow. `shown` has them among all drawn wires."""
+        board, self.moved = self._board, moved
+        own = {wire.id: wire for wire in moved}
+        requests = (each for each in self._before.requests if each.id in own or each.id not in self.ids)
+        wires = (own.get(each.id) or board.wire_of(each) for each in requests)
+        complete = (board.images.completed(wire) for wire in wires if wire is not None)
+        self.shown = replace(board.drawn, wires=tuple(complete))
 
     def keep(self) -> Edit | None:
         """Return the edit that leaves the seed where it is now. Return None if it has not moved."""
@@ -219,14 +215,14 @@ class Dragging(Interaction):
             raise Refused(self.reason)
         if self.target is None:
             return None
-        sketch, pick = self._sketch, self.target.pick
+        board, pick = self._board, self.target.pick
         begun = tuple(each for each in self._courses if not each.course.final or each.course.wires[0].leaves_trace)
         report = "A wire was removed: no edge is left for its seam" if len(begun) < len(self._courses) else ""
         requests = {each.request.id: each.request for each in begun}
         gone = [leg.own.id for leg in self._legs if leg.own.id not in requests]
         network = self._before.without(*gone).replacing({id: (own,) for id, own in requests.items()})
-        network = replace(self._with_seed(network, pick), mirror=sketch.options.mirror)
-        return Edit(network.joined(self.target, sketch.points, sketch.is_final), begun, report=report)
+        network = replace(self._with_seed(network, pick), mirror=board.options.mirror)
+        return Edit(network.joined(self.target, board.points, board.is_final), begun, report=report)
 
     def _with_seed(self, network: Network, pick: Pick) -> Network:
         """Return a network whose live wire begins, and whose chain began, at the dragged seed's new place."""

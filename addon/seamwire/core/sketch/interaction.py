@@ -5,14 +5,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..solver.solver import LiveWire
+    from .board import Board
     from .courses import Course, Search
     from .network import Network, Request, Snap
-    from .sketch import Sketch
 
 
 class Begun(NamedTuple):
@@ -33,7 +32,7 @@ class Edit(NamedTuple):
 
 
 class Interaction:
-    """What the mouse is doing on a sketch. It changes nothing of the sketch, which goes on to the network that it keeps.
+    """What the mouse is doing on a board. It changes nothing of the board, which goes on to the network that it keeps.
 
     Attributes
     ----------
@@ -43,8 +42,8 @@ class Interaction:
         Why nothing can be done there.
     """
 
-    def __init__(self, sketch: Sketch) -> None:
-        self._sketch = sketch
+    def __init__(self, board: Board) -> None:
+        self._board = board
         self.target: Snap | None = None
         self.reason: str = ""
 

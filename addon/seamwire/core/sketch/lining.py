@@ -14,7 +14,7 @@ from ..network.picks import vertices_of
 from .courses import Course, Search
 from .interaction import Begun, Edit, Interaction
 from .line_wires import EdgeLine, SurfaceLine
-from .network import Found, linked, surface_vertex
+from .network import Sought, linked, surface_vertex
 from .wiring import only_vertices
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from ..network.picks import Edge, Pick
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
+    from .board import Board
     from .network import How, Network, Seed, Snap
-    from .sketch import Sketch
 
 
 _TOO_SHORT = "Drag farther along the surface to draw a line"
@@ -45,31 +45,31 @@ class Lining(Interaction):
         Whether its wires belong to no chain, and leave the chain that is drawn unchanged.
     """
 
-    def __init__(self, sketch: Sketch, begin: Snap, goes_on: bool = False, apart: bool = False) -> None:
-        super().__init__(sketch)
+    def __init__(self, board: Board, begin: Snap, goes_on: bool = False, apart: bool = False) -> None:
+        super().__init__(board)
         self._begin, self._goes_on, self._apart = begin, goes_on, apart
-        self.line = self._begun(begin.pick, sketch.network.seed if goes_on else None)
+        self.line = self._begun(begin.pick, board.network.seed if goes_on else None)
 
     def _begun(self, pick: Pick, seed: Seed | None) -> EdgeLine | SurfaceLine:
-        sketch = self._sketch
-        if sketch.options.along == "SURFACE":
+        board = self._board
+        if board.options.along == "SURFACE":
             if isinstance(pick, tuple):
                 raise Refused(only_vertices(pick))
             place = pick if seed is None else surface_vertex(seed.pick)
-            return SurfaceLine(sketch.engines, sketch.points, sketch.triangles, place, sketch.options.into_faces)
+            return SurfaceLine(board.engines, board.points, board.triangles, place, board.options.into_faces)
         vertex = pick if isinstance(pick, int) and not self._apart else None
         before: Edge | None = None
         if seed is not None:
-            before = sketch.ground.heading(seed.after, seed.pick)
+            before = board.ground.heading(seed.after, seed.pick)
             vertex = vertices_of(before or seed.pick)[-1]
-        return EdgeLine(sketch.engines, sketch.points, vertex, before)
+        return EdgeLine(board.engines, board.points, vertex, before)
 
     def draw(self, points: NDArray[np.float64], triangles: NDArray[np.int32], target: Snap | None) -> None:
         """Draw the line on: all its points, (k, 3), the triangle of each, (k,), and the pick under the cursor."""
         self.target = target
         if len(points):
             end = None if self.joined is None else self.joined.pick
-            self.line.to(points, triangles, end, self._sketch.stops.kept(self._sketch.drawn))
+            self.line.to(points, triangles, end, self._board.stops.kept(self._board.drawn))
         self.reason = self.line.message
 
     def poll(self) -> bool:
@@ -87,9 +87,9 @@ class Lining(Interaction):
         return self.target if self.target is not None and self.target.ends_chains else None
 
     def keep(self) -> Edit:
-        sketch, line = self._sketch, self.line
+        board, line = self._board, self.line
         line.finish()
-        how = sketch.how(sketch.options.along)
+        how = board.how(board.options.along)
         is_done = line.poll()
         if is_done and not line.wires:
             none = "No wire fits this line: draw closer to the surface" if self._apart else _TOO_SHORT
@@ -99,14 +99,14 @@ class Lining(Interaction):
         wires = tuple(map(how.of, line.wires))
         ends = line.ends
         if self._apart:
-            return self._added(sketch.base, ends, wires, is_done, None, False)
-        network = sketch.base
+            return self._added(board.base, ends, wires, is_done, None, False)
+        network = board.base
         for pick in ends:
             network = self._with_seed_at(network, pick)
         seed = network.seed if self._goes_on else None
         start, end = ends
         if seed is not None:
-            start = seed.pick if sketch.options.along == "EDGES" else surface_vertex(seed.pick)
+            start = seed.pick if board.options.along == "EDGES" else surface_vertex(seed.pick)
             wires = (replace(wires[0], start=start), *wires[1:]) if wires else ()
         stays = seed is not None and not self._ends_chain(end, seed)
         return self._added(network, (start, end), wires, is_done, seed, stays)
@@ -114,7 +114,7 @@ class Lining(Interaction):
     def warn(self) -> None:
         """Report why the wires do not follow the whole line."""
         if self.line.message:
-            self._sketch.tell(self.line.message)
+            self._board.tell(self.line.message)
 
     def _added(
         self,
@@ -126,7 +126,7 @@ class Lining(Interaction):
         stays: bool,
     ) -> Edit:
         """Return the edit with the line's wires, or with a request that finds them. The chain goes on from its end if it `stays`."""
-        along = self._sketch.options.along
+        along = self._board.options.along
         link = None if seed is None or along == "SURFACE" else seed.after
         begun: tuple[Begun, ...] = ()
         if is_done:
@@ -134,8 +134,8 @@ class Lining(Interaction):
             new = (first if link is None else replace(first, goes_on=link), *rest)
             last = wires[-1].id
         else:
-            request = Found(along=along, start=ends[0], end=ends[1], goes_on=link, what="line")
-            search = LineSearch(self, self._sketch.how(along), request)
+            request = Sought(along=along, start=ends[0], end=ends[1], goes_on=link, what="line")
+            search = LineSearch(self, self._board.how(along), request)
             new, last = (request,), request.id
             shown = tuple(replace(wire, id=request.id) for wire in wires[:1]) + wires[1:]
             begun = (Begun(request, Course(shown), search),)
@@ -149,27 +149,27 @@ class Lining(Interaction):
 
     def _with_seed_at(self, network: Network, pick: Pick) -> Network:
         """Return a network with a seed where the line meets one of its wires."""
-        sketch = self._sketch
+        board = self._board
         for snap in (self._begin, self.target):
             if snap is not None and snap.to == "WIRE" and pick in (snap.pick, *vertices_of(snap.pick)):
-                network = network.joined(replace(snap, pick=pick), sketch.points, sketch.is_final)
+                network = network.joined(replace(snap, pick=pick), board.points, board.is_final)
         for own in network.requests if isinstance(pick, int) else ():
-            wire = sketch.wire_of(own)
+            wire = board.wire_of(own)
             if wire is not None and wire.along == "EDGES" and not wire.closed and pick in wire.vertices[1:-1]:
-                network = network.with_seed_in(wire, pick, sketch.points, sketch.is_final(own)) or network
+                network = network.with_seed_in(wire, pick, board.points, board.is_final(own)) or network
         return network
 
     def _ends_chain(self, end: Pick, seed: Seed) -> bool:
         """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
         if self.joined is not None or end == seed.began:
             return True
-        return isinstance(end, int) and bool(among(np.array([end]), self._sketch.stops.kept(self._sketch.drawn))[0])
+        return isinstance(end, int) and bool(among(np.array([end]), self._board.stops.kept(self._board.drawn))[0])
 
 
 class LineSearch(Search):
     """Finds the wires that follow a released line."""
 
-    def __init__(self, line: Lining, how: How, request: Found) -> None:
+    def __init__(self, line: Lining, how: How, request: Sought) -> None:
         self._line, self._how, self._request = line, how, request
 
     def lives(self) -> Sequence[LiveWire]:

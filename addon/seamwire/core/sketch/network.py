@@ -90,7 +90,7 @@ class Seed:
         return self.pick if self.first is None else self.first
 
 
-class Key:
+class CourseKey:
     """Stands for the course of a request. Edits that let the course be keep the key."""
 
     __slots__ = ("__weakref__",)
@@ -116,7 +116,7 @@ class Request:
     closed: bool = False
     goes_on: Link | None = None
     id: int = field(default_factory=new_id)
-    key: Key = field(default_factory=Key, repr=False)
+    key: CourseKey = field(default_factory=CourseKey, repr=False)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -188,7 +188,7 @@ class Way(Request):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Found(Request):
+class Sought(Request):
     """Something that was kept before it was known: the wires of a line, or a loop. A search finds its wires.
 
     `what` names it for the artist.
@@ -317,8 +317,8 @@ class Network:
         first: Request = Given.of(one, (two.id, "end") if own.closed else own.goes_on)
         second: Request = Given.of(two, link)
         if isinstance(own, Way) and not is_final:
-            first = replace(own, end=one.end, closes=None, runs_on=False, was=one, key=Key())
-            second = replace(own, start=two.start, goes_on=link, was=two, id=two.id, key=Key())
+            first = replace(own, end=one.end, closes=None, runs_on=False, was=one, key=CourseKey())
+            second = replace(own, start=two.start, goes_on=link, was=two, id=two.id, key=CourseKey())
         moved = self._relinked(lambda each: (two.id, "end") if each == (own.id, "end") else each)
         return moved.replacing({own.id: (first, second)})
 

@@ -15,7 +15,7 @@ from ..offers.surface_loops import SurfaceLoops
 from .courses import Course, Search, patiently
 from .interaction import Begun, Edit, Interaction
 from .lining import Lining
-from .network import Found, Given, How, Snap
+from .network import Given, How, Snap, Sought
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..offers.offers import Offers
     from ..offers.surface_loops import TakenCut
     from ..solver.solver import LiveWire
-    from .sketch import Sketch
+    from .board import Board
 
 
 class Offering(Interaction):
@@ -38,12 +38,12 @@ class Offering(Interaction):
         The offers along edges, and across the surface.
     """
 
-    def __init__(self, sketch: Sketch) -> None:
-        super().__init__(sketch)
-        points, triangles, edges = sketch.points, sketch.triangles, sketch.edges
-        self.parts = PartBorders(points, triangles, edges, lambda: sketch.seams, sketch.find_parts)
-        self.edges = LoopOffers(sketch.engines, sketch.stops, points, self.parts)
-        self.cuts = SurfaceLoops(sketch.engines, triangles)
+    def __init__(self, board: Board) -> None:
+        super().__init__(board)
+        points, triangles, edges = board.points, board.triangles, board.edges
+        self.parts = PartBorders(points, triangles, edges, lambda: board.seams, board.find_parts)
+        self.edges = LoopOffers(board.engines, board.stops, points, self.parts)
+        self.cuts = SurfaceLoops(board.engines, triangles)
         self._crests: Crests | None = None
         self._crests_first = False
         self._crest_taken: Pick | None = None
@@ -53,7 +53,7 @@ class Offering(Interaction):
     @property
     def offers(self) -> Offers:
         """The offers for the way that wires run."""
-        return self.edges if self._sketch.options.along == "EDGES" else self.cuts
+        return self.edges if self._board.options.along == "EDGES" else self.cuts
 
     @property
     def is_final(self) -> bool:
@@ -65,8 +65,8 @@ class Offering(Interaction):
         return self.cuts.bends and self.cuts.wanted
 
     def lives(self) -> Sequence[LiveWire]:
-        sketch = self._sketch
-        return [sketch.engines.cuts() if sketch.options.along == "SURFACE" else sketch.engines.get("EDGES")]
+        board = self._board
+        return [board.engines.cuts() if board.options.along == "SURFACE" else board.engines.get("EDGES")]
 
     def takes(self, target: Snap) -> bool:
         """Whether a click at a target takes the offer that is shown."""
@@ -127,9 +127,9 @@ class Offering(Interaction):
         """
         self.reason = ""
         offers = self.edges if isinstance(pick, tuple) else self.cuts
-        self.cuts.into_faces = self._sketch.options.into_faces
+        self.cuts.into_faces = self._board.options.into_faces
         try:
-            return self._with_crest(pick, offers.find(pick, self._sketch.drawn, kept), kept)
+            return self._with_crest(pick, offers.find(pick, self._board.drawn, kept), kept)
         except ValueError as error:
             self.reason = str(error)
             return ()
@@ -150,7 +150,7 @@ class Offering(Interaction):
     def check(self, target: Snap) -> None:
         """Raise Refused if no loop can lead through a target."""
         if not self.offers.takes(target.pick):
-            along_edges = self._sketch.options.along == "EDGES"
+            along_edges = self._board.options.along == "EDGES"
             what = "Loops need an edge" if along_edges else "Closed cuts need a vertex or a point of a face"
             raise Refused(f"{what}, not {pick_name(target.pick)}")
 
@@ -169,33 +169,33 @@ class Offering(Interaction):
         return self._take_cut(target)
 
     def _take_loop(self, target: Snap, edge: Edge) -> Edit | None:
-        sketch = self._sketch
+        board = self._board
         if self._seen is not None and self._seen.kind in CREST_KINDS:
             return self._take_crest(edge)
-        own = self.edges.taken_through(sketch.drawn, edge)
-        if own is not None and own.marks == sketch.options.marking:
+        own = self.edges.taken_through(board.drawn, edge)
+        if own is not None and own.marks == board.options.marking:
             # The first press of a double click took it already.
             return self.next_offer(own, self._choice) if self._choice else None
         # It is read first: offers that are missing when all work is done stay missing.
-        progress = sketch.engines.get("EDGES").progress()
+        progress = board.engines.get("EDGES").progress()
         offers = self.find(edge)
         if not offers:
             if progress < 1.0 or not self.edges.final:
-                return self._later(target, LoopSearch(sketch, target, self._choice))
+                return self._later(target, LoopSearch(board, self, target, self._choice))
             raise Refused(self.reason or f"No edge continues at {pick_name(edge)}")
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
             return self._take_crest(edge)
-        wires = taken_loops(loops, self._choice, sketch.how("EDGES"))
+        wires = taken_loops(loops, self._choice, board.how("EDGES"))
         self.edges.took(edge, wires[-1])
-        return Edit(sketch.base.adding(*map(Given.of, wires)))
+        return Edit(board.base.adding(*map(Given.of, wires)))
 
     def _later(self, target: Snap, search: Search) -> Edit:
         """Take what is offered at a target as soon as it is known."""
-        sketch = self._sketch
-        along = sketch.options.along
-        request = Found(along=along, start=target.pick, end=target.pick, closed=True, what="loop")
-        return Edit(sketch.base.adding(request), (Begun(request, Course(), search),))
+        board = self._board
+        along = board.options.along
+        request = Sought(along=along, start=target.pick, end=target.pick, closed=True, what="loop")
+        return Edit(board.base.adding(request), (Begun(request, Course(), search),))
 
     def _take_cut(self, target: Snap) -> Edit:
         offers = self.find(target.pick)
@@ -203,49 +203,49 @@ class Offering(Interaction):
         if offer is not None and offer.kind in CREST_KINDS:
             return self._take_crest(target.pick)
         if not self.cuts.final:
-            return self._later(target, CutSearch(self._sketch, target.pick, self.cuts, None, seen=offer))
+            return self._later(target, CutSearch(self._board, target.pick, self.cuts, None, seen=offer))
         if offer is None:
             raise Refused(self.reason or self.cuts.NONE)
-        wires = cut_wires(self.cuts.pieces(offer), self._sketch.how("SURFACE"))
+        wires = cut_wires(self.cuts.pieces(offer), self._board.how("SURFACE"))
         self.cuts.take(target.pick, offer, wires, None)
-        return Edit(self._sketch.base.adding(*map(Given.of, wires)))
+        return Edit(self._board.base.adding(*map(Given.of, wires)))
 
     def bend_to(self, target: Snap) -> Edit:
         """Bend the last closed cut to a target: the shortest one through its first point and the target that lies around the same.
 
         The next bend moves the second point.
         """
-        sketch = self._sketch
-        if sketch.options.along == "EDGES" or not self.cuts.takes(target.pick):
+        board = self._board
+        if board.options.along == "EDGES" or not self.cuts.takes(target.pick):
             raise Refused(f"Closed cuts bend to places on the surface, not to {pick_name(target.pick)}")
-        before = self.cuts.bendable(sketch.drawn)
+        before = self.cuts.bendable(board.drawn)
         if before is None:
             raise Refused("No closed cut to bend: add one first")
         self.cuts.bend(True)
         offers = self.find(target.pick)
-        how = replace(sketch.how("SURFACE"), marks=before.wires[0].marks, mirror=before.wires[0].mirror)
+        how = replace(board.how("SURFACE"), marks=before.wires[0].marks, mirror=before.wires[0].mirror)
         how = replace(how, finish=before.wires[0].finish)
         ids = [wire.id for wire in before.wires]
-        rest = sketch.base.without(*ids)
+        rest = board.base.without(*ids)
         if self.cuts.final:
             if not offers:
                 raise Refused(self.reason or self.cuts.NONE)
             wires = cut_wires(self.cuts.pieces(offers[0]), how)
             self.cuts.take(target.pick, offers[0], wires, before)
             return Edit(rest.adding(*map(Given.of, wires)))
-        request = Found(along="SURFACE", start=target.pick, end=target.pick, closed=True, what="loop")
-        search = CutSearch(sketch, target.pick, self.cuts, before, how)
+        request = Sought(along="SURFACE", start=target.pick, end=target.pick, closed=True, what="loop")
+        search = CutSearch(board, target.pick, self.cuts, before, how)
         return Edit(rest.adding(request), (Begun(request, Course(before.wires), search),))
 
     def next_offer(self, own: Wire, steps: int = 1) -> Edit:
         """Return the edit that replaces the loop which a click on an edge took by another offer of that click."""
         assert own.through is not None
-        network = self._sketch.base.loosened(own.id)
+        network = self._board.base.loosened(own.id)
         if not own.offers:
             offers = self.find(own.through, own)[1:]
             if not self.edges.final:
-                request = Found(along="EDGES", start=own.start, end=own.end, closed=own.closed, id=own.id, what="loop")
-                search = LoopSearch(self._sketch, Snap(own.through), steps, own)
+                request = Sought(along="EDGES", start=own.start, end=own.end, closed=own.closed, id=own.id, what="loop")
+                search = LoopSearch(self._board, self, Snap(own.through), steps, own)
                 return Edit(
                     network.replacing({own.id: (request,)}),
                     (Begun(request, Course((own,)), search),),
@@ -257,14 +257,14 @@ class Offering(Interaction):
 
     def _take_crest(self, pick: Pick) -> Edit:
         """Return the edit that draws a line along the ridge or valley at a pick."""
-        sketch = self._sketch
+        board = self._board
         number = None if self._crests is None else self._crests.line_at(pick)
         if self._crests is None or number is None:
             raise Refused(f"No ridge or valley runs at {pick_name(pick)}")
         points, triangles = self._crests.line(number)
-        first = FacePoint.at(points[0], int(triangles[0]), sketch.triangles, sketch.points)
-        begin: Pick = first if sketch.options.into_faces and sketch.options.along == "SURFACE" else first.vertex
-        line = Lining(sketch, Snap(begin), apart=True)
+        first = FacePoint.at(points[0], int(triangles[0]), board.triangles, board.points)
+        begin: Pick = first if board.options.into_faces and board.options.along == "SURFACE" else first.vertex
+        line = Lining(board, Snap(begin), apart=True)
         line.draw(points, triangles, None)
         edit = line.keep()
         self.cuts.was_taken(pick)
@@ -306,13 +306,14 @@ def cut_wires(pieces: tuple[Wire, ...], how: How) -> tuple[Wire, ...]:
 class LoopSearch(Search):
     """Finds the loop that a click on an edge took, or, of a wire that is kept, the offer some steps on."""
 
-    def __init__(self, sketch: Sketch, target: Snap, choice: int, kept: Wire | None = None) -> None:
-        engines = sketch.engines.fork("EDGES")
-        self._sketch, self._target, self._choice, self._kept = sketch, target, choice, kept
+    def __init__(self, board: Board, offering: Offering, target: Snap, choice: int, kept: Wire | None = None) -> None:
+        engines = board.engines.fork("EDGES")
+        self._board, self._offering = board, offering
+        self._target, self._choice, self._kept = target, choice, kept
         self._live = engines.get("EDGES")
-        self._offers = LoopOffers(engines, sketch.stops, sketch.points, sketch.offering.parts)
+        self._offers = LoopOffers(engines, board.stops, board.points, offering.parts)
         self._offers.point_at(target)
-        self._how = sketch.how("EDGES")
+        self._how = board.how("EDGES")
         self._waits = 0
 
     def lives(self) -> Sequence[LiveWire]:
@@ -321,7 +322,7 @@ class LoopSearch(Search):
     def __next__(self) -> Course:
         edge, kept = self._target.pick, self._kept
         progress = self._live.progress()
-        offers = self._offers.find(edge, self._sketch.drawn, kept)
+        offers = self._offers.find(edge, self._board.drawn, kept)
         if not offers and (progress < 1.0 or not self._offers.final):
             self._waits = patiently(self._live, progress < 1.0, self._waits)
             return Course(() if kept is None else (kept,))
@@ -332,7 +333,7 @@ class LoopSearch(Search):
         if not offers:
             raise Refused(f"No edge continues at {pick_name(edge)}")
         wires = taken_loops(offers, self._choice, self._how)
-        self._sketch.offering.edges.took(edge, wires[-1])
+        self._offering.edges.took(edge, wires[-1])
         return Course(wires, final=True)
 
 
@@ -341,23 +342,23 @@ class CutSearch(Search):
 
     def __init__(
         self,
-        sketch: Sketch,
+        board: Board,
         pick: Pick,
         cuts: SurfaceLoops,
         before: TakenCut | None,
         how: How | None = None,
         seen: Wire | None = None,
     ) -> None:
-        engines = sketch.engines.fork("CUTS")
-        self._sketch, self._pick, self._cuts, self._before = sketch, pick, cuts, before
+        engines = board.engines.fork("CUTS")
+        self._board, self._pick, self._cuts, self._before = board, pick, cuts, before
         self._live = engines.cuts()
-        self._own = SurfaceLoops(engines, sketch.triangles)
-        self._own.into_faces = sketch.options.into_faces
+        self._own = SurfaceLoops(engines, board.triangles)
+        self._own.into_faces = board.options.into_faces
         if before is not None:
             self._own.recall((before,))
             self._own.bend(True)
-        self._how, self._seen = how or sketch.how("SURFACE"), seen
-        self._drawn = sketch.drawn
+        self._how, self._seen = how or board.how("SURFACE"), seen
+        self._drawn = board.drawn
         self._waits = 0
 
     def lives(self) -> Sequence[LiveWire]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of a sketch."""
+"""The picture of a board."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..network.picks import undirected
 from .dragging import Dragging
 from .lining import Lining
 from .network import Way
-from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, Work, shown_seeds
+from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,26 +19,31 @@ if TYPE_CHECKING:
     from ...terms.choices import Finish
     from ..network.picks import Pick
     from ..network.wires import Wire
-    from .sketch import Sketch
+    from .board import Board
+    from .interaction import Interaction
+    from .offering import Offering
+    from .picture import Work
+    from .wiring import Wiring
 
 
-def paint(sketch: Sketch) -> Picture:
-    """Return everything that is to be seen of a sketch now."""
-    wiring, offering, network = sketch.wiring, sketch.offering, sketch.network
-    drag, line, options = sketch.holds(Dragging), sketch.holds(Lining), sketch.options
-    is_offering, target = sketch.interaction is offering, sketch.target
+def paint(
+    board: Board, wiring: Wiring, offering: Offering, now: Interaction, work: Work, undo: tuple[bool, bool]
+) -> Picture:
+    """Return everything that is to be seen now. `undo` tells whether there is something to undo, and to redo."""
+    network, options, target = board.network, board.options, now.target
+    drag = now if isinstance(now, Dragging) else None
+    line = now if isinstance(now, Lining) else None
     seed, closing = network.seed, network.closing_point
     hovered = target.pick if target is not None and target.to == "SEED" else None
-    wires = tuple(_wires(sketch))
     return Picture(
         options=options,
-        revision=sketch.revision,
-        network_revision=sketch.network_revision,
-        wires=wires,
-        missing=tuple(_missing(sketch)),
+        revision=board.revision,
+        network_revision=board.network_revision,
+        wires=tuple(_wires(board, wiring, offering, now)),
+        missing=tuple(_missing(board)),
         seeds=shown_seeds(
-            sketch.seeds() if drag is None else drag.seeds(),
-            sketch.seed_place,
+            board.seeds() if drag is None else drag.seeds(),
+            board.seed_place,
             closing,
             hovered if drag is None else undirected(drag.place),
             () if line is None else [wire.start for wire in line.line.wires],
@@ -46,36 +51,38 @@ def paint(sketch: Sketch) -> Picture:
         strokes=network.strokes,
         line=None if line is None else line.line.points,
         target=target,
-        seed=None if seed is None else sketch.seed,
+        seed=None if seed is None else board.seed,
         choice=Choice(wiring.number, 1 + len(wiring.others), wiring.is_straight),
-        offered=Offered(offering.offers.kinds, offering.offers.choice, offering.bends) if is_offering else Offered(),
-        intent=_intent(sketch),
+        offered=Offered(offering.offers.kinds, offering.offers.choice, offering.bends)
+        if now is offering
+        else Offered(),
+        intent=_intent(board, wiring, offering, now),
         can_close=closing is not None,
-        can_bend=options.along == "SURFACE" and offering.cuts.bendable(sketch.drawn) is not None,
-        can_undo=sketch.can_undo,
-        can_redo=sketch.history.can_redo,
-        strength=sketch.engines.strengths[options.along],
-        work=Work(sketch.computing, sketch.progress, sketch.waiting),
-        message=sketch.told,
+        can_bend=options.along == "SURFACE" and offering.cuts.bendable(board.drawn) is not None,
+        can_undo=undo[0],
+        can_redo=undo[1],
+        strength=board.engines.strengths[options.along],
+        work=work,
+        message=board.told,
     )
 
 
-def _wires(sketch: Sketch) -> Iterator[ShownWire]:
+def _wires(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -> Iterator[ShownWire]:
     """Yield the wires from bottom to top: the kept ones, and everything live."""
-    options, wiring, network = sketch.options, sketch.wiring, sketch.network
-    drag, line = sketch.holds(Dragging), sketch.holds(Lining)
+    options, network, target = board.options, board.network, now.target
+    drag = now if isinstance(now, Dragging) else None
+    line = now if isinstance(now, Lining) else None
     moved = {} if drag is None else {wire.id: wire for wire in drag.moved}
     gone = set() if drag is None else drag.ids
 
     def live(wire: Wire, role: Role, finish: Finish) -> ShownWire:
-        images = sketch.mirrored(wire)
+        images = board.mirrored(wire)
         return ShownWire(wire, role, tuple(edge for image in images for edge in image.edges()), finish)
 
-    for wire in sketch.drawn.wires if drag is None else drag.shown.wires:
+    for wire in board.drawn.wires if drag is None else drag.shown.wires:
         if wire.id not in gone:
             yield ShownWire(wire, Role.KEPT, tuple(wire.images or ()))
-    target = sketch.target
-    hovered = None if target is None or target.to != "WIRE" else sketch.drawn.find(target.wire)
+    hovered = None if target is None or target.to != "WIRE" else board.drawn.find(target.wire)
     if hovered is not None:
         yield ShownWire(hovered, Role.HOVERED)
     for wire in moved.values():
@@ -83,7 +90,7 @@ def _wires(sketch: Sketch) -> Iterator[ShownWire]:
     for wire in () if line is None else line.line.wires:
         own = replace(wire, marks=options.marking, mirror=network.mirror)
         yield live(own, Role.FOLLOWING, options.finish)
-    if sketch.interaction is wiring:
+    if now is wiring:
         for wire in reversed(wiring.others):
             yield ShownWire(wire, Role.OTHER)
         if wiring.active is not None:
@@ -91,35 +98,34 @@ def _wires(sketch: Sketch) -> Iterator[ShownWire]:
             yield live(wiring.active, role, options.finish)
         if wiring.extended is not None:
             yield live(wiring.extended, Role.EXTENSION, DEFAULT_FINISH)
-    offer = sketch.offering.offers.wire if sketch.interaction is sketch.offering else None
+    offer = offering.offers.wire if now is offering else None
     for wire in () if offer is None else (offer, *offer.beside):
         yield live(wire, Role.OFFER, options.finish)
 
 
-def _missing(sketch: Sketch) -> Iterator[tuple[Pick, Pick]]:
+def _missing(board: Board) -> Iterator[tuple[Pick, Pick]]:
     """Yield the ends of the requests that have no course, or not yet."""
-    for own in sketch.network.requests:
-        if isinstance(own, Way) and not sketch.courses.of(own).wires:
+    for own in board.network.requests:
+        if isinstance(own, Way) and not board.courses.of(own).wires:
             yield own.start, own.end
 
 
-def _intent(sketch: Sketch) -> Intent:
+def _intent(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -> Intent:
     """Return the effect of a click."""
-    wiring, offering, target = sketch.wiring, sketch.offering, sketch.target
-    along, seed = sketch.options.along, sketch.network.seed
-    if sketch.holds(Dragging) is not None:
+    along, seed, target = board.options.along, board.network.seed, now.target
+    if isinstance(now, Dragging):
         return Intent.MOVE
-    if sketch.holds(Lining) is not None:
+    if isinstance(now, Lining):
         return Intent.DRAW
     if wiring.extended is not None:
         return Intent.RUN
-    if sketch.interaction is offering and offering.offers.wire is not None:
+    if now is offering and offering.offers.wire is not None:
         return Intent.LOOP
     if target is None or (along == "SURFACE" and isinstance(target.pick, tuple)):
         return Intent.NOTHING
     if seed is None:
         return {"SEED": Intent.CONTINUE, "WIRE": Intent.BRANCH}.get(target.to, Intent.SEED)
-    begin = wiring.begin()
+    begin = board.begin()
     if begin is None or begin.is_at(target.pick, seed.pick) or wiring.reason:
         return Intent.NOTHING
     return wiring.ending(target) or Intent.KEEP

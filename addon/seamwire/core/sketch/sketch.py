@@ -3,42 +3,37 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+import traceback
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
-from ..base import native
 from ..base.refused import Refused
-from ..network.network import Drawn
+from ..network.drawn import Drawn
 from ..network.picks import undirected
-from ..network.stops import Stops
-from ..network.strokes import Stroke, drawn, for_library, through_vertices
-from ..network.symmetry import MirrorImages, Symmetry
+from ..network.strokes import Stroke, drawn, through_vertices
 from ..network.wires import FOLLOWS
-from ..offers.part_borders import AMOUNTS
-from ..seams.seam_wires import seam_chains, waiting, wires_along
-from ..solver.solver import MOST_WAITS, Engines
-from .courses import Course, Courses
+from ..solver.solver import MOST_WAITS
+from .board import Board
+from .courses import Course
 from .dragging import Dragging
 from .interaction import Begun, Edit, Interaction
 from .lining import Lining
-from .network import Given, History, How, Key, Network, Snap, Way, linked
+from .network import CourseKey, History, How, Network, Snap, Way, linked
 from .offering import Offering
 from .paint import paint
-from .ways import Ground, WaySearch, heading_of
+from .picture import Work
+from .ways import WaySearch
 from .wiring import Wiring
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import ArrayLike, NDArray
-    from seamwire_core import PartFinder
 
-    from ...terms.choices import Along
     from ..fields.crests import Crests
     from ..network.picks import Edge, Pick
     from ..network.strokes import ActsOn
@@ -50,84 +45,20 @@ if TYPE_CHECKING:
     Kind = TypeVar("Kind", bound=Interaction)
 
 
-class Sketch:
+class Sketch(Board):
     """The network with its history, the courses, and the one interaction.
 
-    A method that changes something returns whether that was done. If not, `reason` says why.
-
-    Parameters
-    ----------
-    make_live
-        Makes the live wires for one way of running. Called once for each way that is used, and once for closed cuts.
-    points
-        (n, 3) coordinates of the mesh's vertices.
-    edges
-        (e, 2) the visible edges.
-    triangles
-        (m, 3) the triangles that the surface was made of.
-    seams
-        (k, 2) the edges that are seams but no wires. Wires that run straight on end there.
-    to_object
-        (3, 3) takes `points` to object coordinates, where mirroring happens. If None, they are object coordinates.
-    topology
-        Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
-    make_parts
-        Makes the library's finder of parts: of the axis over which parts come in pairs, the seams, and a function that is told the
-        progress and returns whether to go on. If None, there are no parts.
-
-    Attributes
-    ----------
-    reason
-        Why something is not done, until the cursor points at something else.
-    reports
-        What happened that the artist may not have seen. It is told when the chain ends.
-    revision, network_revision
-        Grow with every change of the picture, and of the drawn wires.
-    progress
-        The finished fraction of the running work.
+    A method that changes something returns whether that was done. If not, `reason` says why. The parameters are those of `Board`.
     """
 
-    def __init__(
-        self,
-        make_live: Callable[[Along], LiveWire],
-        points: NDArray[np.float64],
-        options: Options = Options(),  # noqa: B008 - it cannot be changed
-        *,
-        edges: NDArray[np.int32],
-        triangles: NDArray[np.int32],
-        seams: ArrayLike = (),
-        to_object: NDArray[np.float64] | None = None,
-        make_stroke: Callable[[Stroke], object] = for_library,
-        topology: bool = False,
-        make_parts: Callable[[int | None, NDArray[np.int32], Callable[[float], bool]], PartFinder] | None = None,
-    ) -> None:
-        self.points, self.edges, self.triangles = points, edges, triangles
-        self.options = options
-        self._make_parts = make_parts
-        self._finder: tuple[bytes, PartFinder] | None = None
-        self.symmetry = Symmetry(points, edges, to_object, topology, triangles)
-        self.images = MirrorImages(self.symmetry)
-        self.stops = Stops(seams, self.symmetry)
-        self.engines = Engines(make_live, make_stroke)
-        self.engines.use(options.metric, options.strengths, options.clamp)
-        self.network = Network(mirror=options.mirror)
+    def __init__(self, *mesh: object, **more: object) -> None:
+        super().__init__(*mesh, **more)
         self.history = History()
-        self.courses = Courses()
-        self.ground = Ground(points, self.stops, lambda: self.network, lambda: self.drawn, self.wire)
-        self.progress = 0.0
-        self.reason: str = ""
-        self.reports: list[str] = []
-        self._new_report: str = ""
-        self.revision = self.network_revision = 0
-        self.drawn = Drawn(mirror=options.mirror)
-        self._completed: dict[Wire, Wire] = {}
         self.wiring = Wiring(self)
         self.offering = Offering(self)
         self.interaction: Interaction = self.wiring
-        self._last_click: tuple[Pick, int] | None = (
-            None  # the pick of the last step, if that was a click, and the number of steps then
-        )
-        self._picture: tuple[object, Picture] | None = None
+        self._last_click: tuple[Pick, int] | None = None  # its pick, and the number of steps then
+        self._painted: tuple[object, Picture] | None = None
         # The live wires are made now, because what they compute first takes longest.
         self._read_progress()
 
@@ -137,103 +68,6 @@ class Sketch:
     def wires(self) -> tuple[Wire, ...]:
         """The wires as they are shown now, oldest first."""
         return self.shown.wires
-
-    @property
-    def base(self) -> Network:
-        """The network that edits begin with: where the wires of a line or a loop are known, they are separate requests."""
-        new = {}
-        for own in self.network.requests:
-            course = self.courses.of(own)
-            if course.final and not isinstance(own, (Given, Way)):
-                first, *rest = linked(course.wires) or (None,)
-                new[own.id] = () if first is None else (replace(first, goes_on=own.goes_on or first.goes_on), *rest)
-        return self.network.replacing(new) if new else self.network
-
-    def wire(self, id: int) -> Wire | None:
-        """Return the wire with a number, as it runs now; of a request with several wires the last one."""
-        own = self.network.find(id)
-        if own is not None and not isinstance(own, (Given, Way)):
-            wires = self.courses.of(own).wires
-            return wires[-1] if wires else None
-        return next((wire for wire in self.drawn.wires if wire.id == id), None)
-
-    def wire_of(self, own: Request) -> Wire | None:
-        """Return the wire of a request that may not be in the network yet."""
-        return own.wire if isinstance(own, Given) else self.wire(own.id)
-
-    def is_final(self, own: Request) -> bool:
-        return self.courses.of(own).final
-
-    def how(self, along: str) -> How:
-        """Return the settings of a new wire."""
-        options = self.options
-        finish = options.finish if along == "SURFACE" and options.marking else DEFAULT_FINISH
-        return How(options.marking, self.network.mirror, self.engines.strengths[along], finish)
-
-    def _draw(self) -> None:
-        """Derive the wires from the network and the courses."""
-        found = {own: self.courses.of(own).wires for own in self.network.requests}
-        last = {own.id: wires[-1] for own, wires in found.items() if wires}
-        drawn: list[Wire] = []
-        for own, wires in found.items():
-            for row, wire in enumerate(wires):
-                if row == 0 and wire.along == "EDGES":
-                    before = None if own.goes_on is None else last.get(own.goes_on[0])
-                    heading = None if before is None else heading_of(before, own.goes_on[1], own.start)
-                    wire = wire if heading == wire.heading else self._with_heading(wire, heading)
-                drawn.append(self._with_images(wire))
-        before, self.drawn = self.drawn, Drawn(tuple(drawn), self.network.strokes, self.network.mirror)
-        changed = before.wires != self.drawn.wires or before.mirror != self.drawn.mirror
-        self.network_revision += changed
-        self.revision += 1
-        if not changed and before == self.drawn:
-            self.drawn = before
-
-    def _with_heading(self, wire: Wire, heading: Edge | None) -> Wire:
-        known = self._completed.get(wire)
-        if known is None or known.heading != heading:
-            known = self._completed[wire] = wire.changed(heading=heading)
-        return known
-
-    def _with_images(self, wire: Wire) -> Wire:
-        if wire.images is not None:
-            return wire
-        if wire not in self._completed:
-            self._completed[wire] = self.images.completed(wire)
-        return self._completed[wire]
-
-    @property
-    def seed(self) -> Pick | None:
-        """The beginning of the live wire; None between chains."""
-        begin = self.wiring.begin()
-        return None if begin is None else begin.pick
-
-    @property
-    def seed_place(self) -> Pick | None:
-        """The place where the live wire's seed is shown; None between chains."""
-        seed = self.network.seed
-        if seed is None:
-            return None
-        return undirected(seed.pick if self.options.along == "EDGES" else self.seed)
-
-    def seeds(self) -> list[Pick]:
-        """Return every seed, each once, in the order they were placed."""
-        ends = [
-            pick
-            for own in self.network.requests
-            for wire in self.courses.of(own).wires or (own,)
-            if not wire.closed
-            for pick in (wire.start, wire.end)
-        ]
-        live = self.seed_place
-        return list({undirected(pick): None for pick in (*ends, *(() if live is None else (live,)))})
-
-    @property
-    def seams(self) -> NDArray[np.int32]:
-        """The edges, (k, 2), that are seams, or will be because of the wires and their images. Sorted, the smaller vertex first."""
-        marked = [edge for wire in self.drawn.wires if wire.marks for edge in wire.claims()]
-        known = np.sort(np.concatenate([self.stops.seams, np.array(marked, dtype=np.int32).reshape(-1, 2)]), axis=1)
-        return np.unique(known, axis=0)
 
     def edges_to_mark(self) -> list[Edge]:
         """Return the edges that the wires make seams, each once, sorted, smaller vertex first."""
@@ -255,55 +89,35 @@ class Sketch:
         drag = self.holds(Dragging)
         return (frozenset(), frozenset()) if drag is None else (frozenset(drag.ids), drag.ends)
 
-    def mirrored(self, wire: Wire, curves: bool = False) -> list[Wire]:
-        """Return the images that a wire has, or would have if it were kept now; see `Symmetry.images`."""
-        return self.images.of(wire, self.drawn, curves)
-
-    def feature_strength(self) -> NDArray[np.float64] | None:
-        """Return the feature strength of each vertex, (n,), or None while it is computed."""
-        return self.engines.get(self.options.along).feature_strength()
-
-    def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
-        """Yield wires that run along seams, (k, 2), as few as possible. None of them is kept.
-
-        Raises ValueError if an edge is not part of the surface.
-        """
-        live = self.engines.get("EDGES").fork()
-        for chain in seam_chains(seams):
-            yield from waiting(live, wires_along(live, chain, self.points, self.engines.strengths["EDGES"]))
-
-    def find_parts(self, seams: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
-        """Yield the part of each triangle, (m,), for each of `AMOUNTS`, while `goes_on()`; nothing if there are no parts. Any thread may.
-
-        `seams`, (k, 2), part the mesh already. The next search with the same seams uses the measurements of a search that was stopped.
-        """
-        if self._make_parts is None:
-            return
-
-        def progress(_: float) -> bool:
-            return goes_on()
-
-        with suppress(native.load().Cancelled):
-            if self._finder is None or self._finder[0] != seams.tobytes():
-                axes = self.symmetry.symmetric_axes
-                preferred = [axis for axis in self.options.mirror if axis in axes]
-                axis = next(iter((*preferred, *axes)), None)
-                self._finder = seams.tobytes(), self._make_parts(axis, seams, progress)
-            for amount in AMOUNTS:
-                yield self._finder[1].find(amount, progress=progress).of_face
-
     @property
     def picture(self) -> Picture:
         """Everything that is to be seen now."""
+        return self._newest_picture()
+
+    def _newest_picture(self) -> Picture:
         key = (self.revision, self.told, self.computing, self.progress, self.waiting)
-        if self._picture is None or self._picture[0] != key:
-            self._picture = key, paint(self)
-        return self._picture[1]
+        if self._painted is None or self._painted[0] != key:
+            self._painted = (
+                key,
+                paint(
+                    self,
+                    self.wiring,
+                    self.offering,
+                    self.interaction,
+                    self._work,
+                    (self.can_undo, self.history.can_redo),
+                ),
+            )
+        return self._painted[1]
+
+    @property
+    def _work(self) -> Work:
+        return Work(self.computing, self.progress, self.waiting)
 
     @property
     def told(self) -> str:
         """The reason or the new report that the artist sees now."""
-        return self.reason or self._new_report
+        return self.reason or self.new_report
 
     # Work
 
@@ -341,7 +155,7 @@ class Sketch:
         self._read_progress()
         done, is_new = self.courses.poll(self.network)
         if done or is_new:
-            self._draw()
+            self.draw()
         for own in done:
             self._told_of(own)
         self._poll_interaction()
@@ -352,13 +166,14 @@ class Sketch:
         if course.reason:
             self.tell(course.reason)
         elif isinstance(own, Way):
-            self._warn_of_triangles(own.along)
-            self._warn_of_images(course)
+            self.warn_of_triangles(own.along)
+            self.warn_of_images(course)
 
     def _poll_interaction(self) -> None:
         own = self.interaction
         before = own.reason
-        self.revision += own.poll()
+        with self._guarded():
+            self.revision += own.poll()
         if own.reason != before:
             self.reason = own.reason
             self.revision += 1
@@ -383,31 +198,36 @@ class Sketch:
             why = self.reason or "The computation ended without a result: this step was dropped"
             self.courses.give_up(unfinished, why)
             self.tell(why)
-            self._draw()
+            self.draw()
 
     # Edits
 
-    def refuse(self, why: str) -> bool:
-        """Tell why something is not done."""
-        self.reason = why
-        self.revision += 1
-        return False
-
-    def tell(self, what: str) -> None:
-        """Report something that happened."""
-        self._new_report = what
-        self.reports.append(self._new_report)
-        self.revision += 1
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        """Let an unexpected error end the interaction, and not the chain. The network stays as it was."""
+        try:
+            yield
+        except ValueError:
+            raise
+        except Exception as error:
+            traceback.print_exc()
+            self.interaction = self.wiring
+            self.wiring.runs = False
+            self.wiring.aim(None)
+            self.offering.cancel()
+            self.tell(f"This step ended on an error, and nothing was changed: {error}")
 
     def _do(self, find: Callable[[], Edit | None]) -> bool:
         """Go on to the network of an edit, unless it is refused."""
-        self._new_report = ""
+        self.new_report = ""
         try:
-            edit = find()
+            with self._guarded():
+                edit = find()
+                return edit is None or self.edit(edit)
         except ValueError as error:
             self._look_again()
             return self.refuse(str(error))
-        return edit is None or self.edit(edit)
+        return False
 
     def edit(self, edit: Edit) -> bool:
         """Go on to a network, with a step for undo."""
@@ -419,10 +239,10 @@ class Sketch:
                 shown = () if own.was is None else (own.was,)
                 self.courses.begin(own, Course(shown), WaySearch(own, self.ground, self.engines.get(own.along).fork()))
         try:
-            self._go_to(edit.network)
+            self.go_to(edit.network)
             self.wiring.sow()
         except ValueError as error:
-            self._go_to(before)
+            self.go_to(before)
             return self.refuse(str(error))
         self.history.step(before)
         self._settle()
@@ -433,13 +253,6 @@ class Sketch:
             if begun.course.final and isinstance(begun.request, Way):
                 self._told_of(begun.request)
         return True
-
-    def _go_to(self, network: Network) -> None:
-        """Go on to a network, without a step for undo."""
-        before, self.network = self.network, network
-        if before.strokes != network.strokes:
-            self.engines.follow(network.strokes)
-        self._draw()
 
     def _settle(self) -> None:
         """Let the interactions follow a new network."""
@@ -455,17 +268,6 @@ class Sketch:
         self.wiring.aim(self.wiring.target)
         self.reason = self.wiring.reason
         self.revision += 1
-
-    def _warn_of_triangles(self, along: Along) -> None:
-        warning = self.engines.warning(along)
-        if warning:
-            self.tell(warning)
-
-    def _warn_of_images(self, course: Course) -> None:
-        for wire in course.wires:
-            warning = self.images.warning(wire)
-            if warning:
-                self.tell(warning)
 
     # At the cursor
 
@@ -494,13 +296,14 @@ class Sketch:
         if same and not is_offering:
             return
         self._read_progress()
-        before = self.wiring.shown, self.reason, self.interaction
-        vanish = self.offering.hover(target, loop, bend)
-        self.interaction = own
-        if is_offering:
-            self.wiring.target = target
-        else:
-            self.wiring.aim(target)
+        before, vanish = (self.wiring.shown, self.reason, self.interaction), False
+        with self._guarded():
+            vanish = self.offering.hover(target, loop, bend)
+            self.interaction = own
+            if is_offering:
+                self.wiring.target = target
+            else:
+                self.wiring.aim(target)
         self.reason = own.reason
         self.revision += vanish or before != (self.wiring.shown, self.reason, own)
 
@@ -595,7 +398,7 @@ class Sketch:
     def _warned(self) -> bool:
         newest = self.network.requests[-1] if self.network.requests else None
         if newest is not None and self.is_final(newest):
-            self._warn_of_images(self.courses.of(newest))
+            self.warn_of_images(self.courses.of(newest))
         return True
 
     def close(self, seen_along: tuple[float, float, float] | None = None) -> bool:
@@ -634,8 +437,18 @@ class Sketch:
         if self.network.seed is None:
             return
         # This is not a step for undo. Undoing the last wire afterwards makes the chain live again.
-        self._go_to(replace(self.network, seed=None))
+        self.go_to(replace(self.network, seed=None))
         self._settle()
+
+    def finish(self, wait: bool = True) -> None:
+        """End the chain, and `wait` until every wire is final. Otherwise wires stay as they are drawn. Those that are not there go."""
+        self.end_chain()
+        if wait:
+            self.wait()
+        self.courses.give_up(self.courses.unfinished(self.network))
+        lost = [own.id for own in self.network.requests if not self.courses.of(own).wires]
+        if lost:
+            self.go_to(self.network.without(*lost))
 
     def _calm(self) -> None:
         """Drop what is held or previewed, and stop looking for loops."""
@@ -662,7 +475,7 @@ class Sketch:
             raise Refused("A loop has no other path")
         course = self.courses.of(own)
         if isinstance(own, Way):
-            way = replace(own, turns=own.turns + 1, was=own.was if own.turns else drawn, key=Key())
+            way = replace(own, turns=own.turns + 1, was=own.was if own.turns else drawn, key=CourseKey())
         else:
             uncut = drawn.uncut()
             way = Way(
@@ -717,7 +530,8 @@ class Sketch:
         if snap is None:
             return False
         before = (drag.target, drag.moved, self.reason)
-        drag.aim(Snap.of(snap))
+        with self._guarded():
+            drag.aim(Snap.of(snap))
         self.reason = drag.reason
         self._read_progress()
         self.revision += before != (drag.target, drag.moved, self.reason)
@@ -737,7 +551,7 @@ class Sketch:
 
     def goes_on_from(self, snap: Snap | Pick) -> bool:
         """Whether a line that begins at a pick continues the chain, rather than begin a new one."""
-        seed, target, begin = self.network.seed, Snap.of(snap), self.wiring.begin()
+        seed, target, begin = self.network.seed, Snap.of(snap), self.begin()
         return seed is not None and begin is not None and target.to == "SEED" and begin.is_at(target.pick, seed.pick)
 
     def line_begin(self, snap: Snap | Pick) -> bool:
@@ -753,7 +567,8 @@ class Sketch:
         line = self.holds(Lining)
         if line is None:
             return self.refuse("No line is being drawn")
-        line.draw(points, triangles, None if snap is None else Snap.of(snap))
+        with self._guarded():
+            line.draw(points, triangles, None if snap is None else Snap.of(snap))
         self._read_progress()
         self.reason = line.reason
         self.revision += 1
@@ -840,7 +655,7 @@ class Sketch:
         if options.clear != before.clear:
             self.reason = ""
         if options.mirror != self.network.mirror:
-            self._go_to(replace(self.network, mirror=options.mirror))
+            self.go_to(replace(self.network, mirror=options.mirror))
         return done
 
     def _compute_anew(self) -> None:
@@ -862,7 +677,7 @@ class Sketch:
             self.wiring.sow()
         except ValueError as error:
             why = str(error)
-            self._go_to(replace(self.network, seed=None))
+            self.go_to(replace(self.network, seed=None))
         self._look_again()
         self.reason = why or self.reason
         return not why
@@ -889,8 +704,8 @@ class Sketch:
     def _restore(self, network: Network) -> bool:
         """Go back or forth to a network of the history."""
         back = [stroke.acts_on for stroke in network.strokes if stroke not in self.network.strokes]
-        self._go_to(replace(network, mirror=self.options.mirror))
-        self._new_report = ""
+        self.go_to(replace(network, mirror=self.options.mirror))
+        self.new_report = ""
         self._last_click = None
         self.offering.forget_crest()
         self._settle()
@@ -911,8 +726,8 @@ class Sketch:
         # Wires that were just cut do not know their images. Images are the edges that are seams.
         among = {tuple(sorted(pair)) for pair in np.asarray(seams, dtype=np.int64).reshape(-1, 2).tolist()}
         known = tuple(wire if wire.images is not None else self.images.completed(wire, among) for wire in own.wires)
-        self._go_to(Network(linked(known), mirror=self.network.mirror, strokes=own.strokes))
-        self._new_report = ""
+        self.go_to(Network(linked(known), mirror=self.network.mirror, strokes=own.strokes))
+        self.new_report = ""
         self.offering.edges.forget()
         self._settle()
 

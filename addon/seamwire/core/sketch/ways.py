@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...terms.choices import Along
-    from ..network.network import Drawn
+    from ..network.drawn import Drawn
     from ..network.picks import Edge, End, Pick
     from ..network.stops import Stops
     from ..solver.solver import Candidate, Candidates, LiveWire

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
     from ..network.picks import Pick
     from ..solver.solver import LiveWire
+    from .board import Board
     from .network import Network, Request, Snap
-    from .sketch import Sketch
 
 
 class Wiring(Interaction):
@@ -45,8 +45,8 @@ class Wiring(Interaction):
         The live wire with that way, once it is found.
     """
 
-    def __init__(self, sketch: Sketch) -> None:
-        super().__init__(sketch)
+    def __init__(self, board: Board) -> None:
+        super().__init__(board)
         self.chosen: int | None = None
         self.runs = False
         self.extended: Wire | None = None
@@ -69,25 +69,17 @@ class Wiring(Interaction):
 
     # Where it begins
 
-    def begin(self) -> Begin | None:
-        """Return where wires begin now; None between chains."""
-        sketch = self._sketch
-        seed = sketch.network.seed
-        if seed is None:
-            return None
-        return Begin.of(seed.pick, sketch.options.along, sketch.ground.heading(seed.after, seed.pick))
-
     def sow(self) -> None:
         """Let the live wires begin where they are to begin now. Raise ValueError if that is not part of the surface."""
-        begin, live = self.begin(), self._live
+        begin, live = self._board.begin(), self._live
         if begin is not None and self._sown != (live, begin):
             self._sown = None
-            begin.sow(live, self._sketch.options.along)
+            begin.sow(live, self._board.options.along)
             self._sown = live, begin
 
     @property
     def _live(self) -> LiveWire:
-        return self._sketch.engines.get(self._sketch.options.along)
+        return self._board.engines.get(self._board.options.along)
 
     # Candidates
 
@@ -103,12 +95,12 @@ class Wiring(Interaction):
             self._extend()
 
     def _find(self) -> str:
-        sketch, target = self._sketch, self.target
-        along, network = sketch.options.along, sketch.network
+        board, target = self._board, self.target
+        along, network = board.options.along, board.network
         if network.seed is None or target is None:
             return ""
         self.sow()
-        begin = self.begin()
+        begin = self._board.begin()
         assert begin is not None
         if begin.is_at(target.pick, network.seed.pick):
             return ""
@@ -117,19 +109,19 @@ class Wiring(Interaction):
         closes = self._closes(network, target)
         lead, avoid = target.pick, None
         if along == "EDGES" and closes is not None:
-            lead, avoid = goal(target.pick, sketch.wire(closes.id))
+            lead, avoid = goal(target.pick, board.wire(closes.id))
         found = self._live.wires(for_live(lead, along))
         candidates, self.leading = by_number(found)
         self.finals = tuple(each.final for each in candidates)
         self.settled = found.settled
         if along == "SURFACE":
             self.wires = tuple(across(each, row, begin.pick, target.pick) for row, each in enumerate(candidates))
-            if sketch.options.straight:
+            if board.options.straight:
                 self._add_straight(begin.pick, target)
         else:
             ends = network.seed.pick, target.pick
             self.wires = tuple(
-                along_edges(each, row, begin, ends, avoid, sketch.points) for row, each in enumerate(candidates)
+                along_edges(each, row, begin, ends, avoid, board.points) for row, each in enumerate(candidates)
             )
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
@@ -145,28 +137,28 @@ class Wiring(Interaction):
     def _add_straight(self, begin: Pick, target: Snap) -> None:
         if target.seen_along is None:
             return
-        live = self._sketch.engines.get("SURFACE")
+        live = self._board.engines.get("SURFACE")
         self.straight = straight_wire(live, begin, target.pick, target.seen_along, self.leading)
         if self.straight is not None:
             self.wires, self.finals = (*self.wires, self.straight), (*self.finals, True)
             self.leading, self.settled = len(self.wires) - 1, True
 
     def _extend(self) -> None:
-        sketch = self._sketch
-        seed = sketch.network.seed
+        board = self._board
+        seed = board.network.seed
         try:
             if seed is None:
                 raise Refused("Nothing to extend: place a seed first")
-            heading = sketch.ground.heading(seed.after, seed.pick)
-            wire = sketch.ground.run_on(sketch.engines.get("EDGES"), self.active, seed.pick, heading)
+            heading = board.ground.heading(seed.after, seed.pick)
+            wire = board.ground.run_on(board.engines.get("EDGES"), self.active, seed.pick, heading)
         except ValueError as error:
             self.extended, self.reason = None, str(error)
         else:
-            self.extended = sketch.how("EDGES").of(wire)
+            self.extended = board.how("EDGES").of(wire)
 
     def poll(self) -> bool:
         """Find the wires to the same target once more, if they were not final or begin elsewhere now."""
-        is_sown = self._sown is None or self._sown == (self._live, self.begin())
+        is_sown = self._sown is None or self._sown == (self._live, self._board.begin())
         if self.is_final and is_sown and not (self.runs and self.extended is None):
             return False
         before = self.shown
@@ -189,7 +181,7 @@ class Wiring(Interaction):
         """Whether a target is under the cursor already, looked at from where it is now if wires are to be straight there."""
         if target != self.target:
             return False
-        return not self._sketch.options.straight or target is None or target.seen_along == self.target.seen_along
+        return not self._board.options.straight or target is None or target.seen_along == self.target.seen_along
 
     @property
     def active_index(self) -> int:
@@ -251,7 +243,7 @@ class Wiring(Interaction):
 
     def click(self, target: Snap) -> Edit:
         """Begin a chain at a target, or keep the wire that leads there. Raise Refused if neither is possible."""
-        if self._sketch.network.seed is None:
+        if self._board.network.seed is None:
             return self.start(target)
         self._seen = self.active_final and target == self.target
         if not (self.is_aimed_at(target) and self.is_final and self.wires):
@@ -260,19 +252,19 @@ class Wiring(Interaction):
 
     def start(self, target: Snap) -> Edit:
         """Begin a new chain at a target, which ends the one before."""
-        sketch = self._sketch
-        along = sketch.options.along
+        board = self._board
+        along = board.options.along
         if along == "SURFACE" and isinstance(target.pick, tuple):
             raise Refused(only_vertices(target.pick))
-        network = replace(sketch.base, seed=None).joined(target, sketch.points, sketch.is_final)
+        network = replace(board.base, seed=None).joined(target, board.points, board.is_final)
         return Edit(replace(network, seed=network.seed_at(target, along)))
 
     def keep(self) -> Edit:
-        sketch, target, wire = self._sketch, self.target, self.active
+        board, target, wire = self._board, self.target, self.active
         assert target is not None
-        begin = self.begin()
+        begin = self._board.begin()
         assert begin is not None
-        network = sketch.base
+        network = board.base
         seed = network.seed
         assert seed is not None
         if begin.is_at(target.pick, seed.pick):
@@ -282,16 +274,16 @@ class Wiring(Interaction):
         is_done = self._is_decided or (self._seen and self.active_final)
         closes = self._closes(network, target)
         way = Way(
-            along=sketch.options.along,
-            start=seed.pick if sketch.options.along == "EDGES" else begin.pick,
+            along=board.options.along,
+            start=seed.pick if board.options.along == "EDGES" else begin.pick,
             end=target.pick,
-            goes_on=seed.after if sketch.options.along == "EDGES" else None,
-            how=sketch.how(sketch.options.along),
+            goes_on=seed.after if board.options.along == "EDGES" else None,
+            how=board.how(board.options.along),
             follow=self.active_index if is_done else self.chosen,
             closes=None if closes is None else closes.id,
         )
         ends = self.ending(target) is not None
-        joined = network.joined(target, sketch.points, sketch.is_final)
+        joined = network.joined(target, board.points, board.is_final)
         if self.is_straight and wire is not None:
             given = Given.of(replace(way.how.of(wire), id=way.id))
             self._check(way, given.wire)
@@ -303,16 +295,16 @@ class Wiring(Interaction):
                 self._check(way, kept)
             ordered = in_order(self.wires, self.active_index) if self.is_final else ()
             course = Course((kept,), final=is_done, choices=ordered)
-        search = None if course.final else WaySearch(way, sketch.ground, sketch.engines.hand_over(way.along), begin)
+        search = None if course.final else WaySearch(way, board.ground, board.engines.hand_over(way.along), begin)
         return Edit(joined.with_drawn(way, target.pick, ends), (Begun(way, course, search),))
 
     def _check(self, way: Way, wire: Wire) -> None:
-        self._sketch.ground.check(way, wire)
+        self._board.ground.check(way, wire)
 
     def run_to_end(self) -> Edit:
         """Keep the live wire with its way to the end, which ends the chain."""
-        sketch = self._sketch
-        network, begin = sketch.base, self.begin()
+        board = self._board
+        network, begin = board.base, self._board.begin()
         seed = network.seed
         if seed is None or begin is None:
             raise Refused("Nothing to extend: place a seed first")
@@ -327,7 +319,7 @@ class Wiring(Interaction):
             start=seed.pick,
             end=end,
             goes_on=seed.after,
-            how=sketch.how("EDGES"),
+            how=board.how("EDGES"),
             follow=self.active_index if wire is not None and is_done else self.chosen,
             runs_on=True,
         )
@@ -336,12 +328,12 @@ class Wiring(Interaction):
         if course.final:
             given = Given.of(shown[0], way.goes_on)
             return Edit(replace(network.adding(given), seed=None))
-        search = WaySearch(way, sketch.ground, sketch.engines.hand_over("EDGES"), begin)
+        search = WaySearch(way, board.ground, board.engines.hand_over("EDGES"), begin)
         return Edit(replace(network.adding(way), seed=None), (Begun(way, course, search),))
 
     def ending(self, target: Snap) -> Intent | None:
         """Return how a wire to a target ends the chain, or None if the chain goes on."""
-        if self._sketch.network.closes(target):
+        if self._board.network.closes(target):
             return Intent.CLOSE
         return Intent.JOIN if target.ends_chains else None
 

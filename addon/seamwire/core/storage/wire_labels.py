@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.components import groups
-from ..network.network import Drawn
+from ..network.drawn import Drawn
 from ..network.picks import undirected
 from ..network.wires import LOOP_KINDS
 from . import serialization

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Intent, Role, SeedRole, ShownSeed
 from setting import insert, use

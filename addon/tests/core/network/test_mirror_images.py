@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.symmetry import MirrorImages
 from table import symmetry, wire
 

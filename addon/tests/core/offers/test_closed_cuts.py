@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.wires import Wire
 from seamwire.core.offers import surface_loops
 from seamwire.core.offers.surface_loops import CutMemory, is_same

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges
 from paper_mesh import PaperMesh
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.storage.serialization import FORMAT, VERSION, WAS_SEAM, Archive, NewerError, UnreadableError, packed
 from setting import use
 from table import SIZE, Table, chain, paper

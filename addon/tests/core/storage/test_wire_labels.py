@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from paper_mesh import PaperMesh
-from seamwire.core.network.network import Drawn
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.picks import Edge
 from seamwire.core.sketch.network import Network, Snap, linked
 from seamwire.core.sketch.sketch import Sketch

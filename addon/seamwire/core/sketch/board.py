@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What there is of a sketch: the network, its courses and wires, the mesh and the settings. Interactions know only this."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from ...terms.choices import DEFAULT_FINISH
+from ...terms.options import Options
+from ..base import native
+from ..network.drawn import Drawn
+from ..network.picks import undirected
+from ..network.stops import Stops
+from ..network.strokes import Stroke, for_library
+from ..network.symmetry import MirrorImages, Symmetry
+from ..offers.part_borders import AMOUNTS
+from ..seams.seam_wires import seam_chains, waiting, wires_along
+from ..solver.solver import Engines
+from .courses import Course, Courses
+from .interaction import Interaction
+from .network import Given, How, Network, Way, linked
+from .ways import Ground, heading_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import PartFinder
+
+    from ...terms.choices import Along
+    from ..network.picks import Edge, Pick
+    from ..network.wires import Wire
+    from ..solver.solver import LiveWire
+    from .network import Request
+
+    Kind = TypeVar("Kind", bound=Interaction)
+
+
+class Board:
+    """The network of one object, with its courses and the wires that are derived from both.
+
+    Only `Sketch` changes it.
+
+    Parameters
+    ----------
+    make_live
+        Makes the live wires for one way of running. Called once for each way that is used, and once for closed cuts.
+    points
+        (n, 3) coordinates of the mesh's vertices.
+    edges
+        (e, 2) the visible edges.
+    triangles
+        (m, 3) the triangles that the surface was made of.
+    seams
+        (k, 2) the edges that are seams but no wires. Wires that run straight on end there.
+    to_object
+        (3, 3) takes `points` to object coordinates, where mirroring happens. If None, they are object coordinates.
+    topology
+        Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
+    make_parts
+        Makes the library's finder of parts: of the axis over which parts come in pairs, the seams, and a function that is told the
+        progress and returns whether to go on. If None, there are no parts.
+
+    Attributes
+    ----------
+    reason
+        Why something is not done, until the cursor points at something else.
+    reports
+        What happened that the artist may not have seen. It is told when the chain ends.
+    revision, network_revision
+        Grow with every change of the picture, and of the drawn wires.
+    progress
+        The finished fraction of the running work.
+    """
+
+    def __init__(
+        self,
+        make_live: Callable[[Along], LiveWire],
+        points: NDArray[np.float64],
+        options: Options = Options(),  # noqa: B008 - it cannot be changed
+        *,
+        edges: NDArray[np.int32],
+        triangles: NDArray[np.int32],
+        seams: ArrayLike = (),
+        to_object: NDArray[np.float64] | None = None,
+        make_stroke: Callable[[Stroke], object] = for_library,
+        topology: bool = False,
+        make_parts: Callable[[int | None, NDArray[np.int32], Callable[[float], bool]], PartFinder] | None = None,
+    ) -> None:
+        self.points, self.edges, self.triangles = points, edges, triangles
+        self.options = options
+        self._make_parts = make_parts
+        self._finder: tuple[bytes, PartFinder] | None = None
+        self.symmetry = Symmetry(points, edges, to_object, topology, triangles)
+        self.images = MirrorImages(self.symmetry)
+        self.stops = Stops(seams, self.symmetry)
+        self.engines = Engines(make_live, make_stroke)
+        self.engines.use(options.metric, options.strengths, options.clamp)
+        self.network = Network(mirror=options.mirror)
+        self.courses = Courses()
+        self.ground = Ground(points, self.stops, lambda: self.network, lambda: self.drawn, self.wire)
+        self.progress = 0.0
+        self.reason: str = ""
+        self.reports: list[str] = []
+        self.new_report: str = ""
+        self.revision = self.network_revision = 0
+        self.drawn = Drawn(mirror=options.mirror)
+        self._completed: dict[Wire, Wire] = {}
+
+    @property
+    def base(self) -> Network:
+        """The network that edits begin with: where the wires of a line or a loop are known, they are separate requests."""
+        new = {}
+        for own in self.network.requests:
+            course = self.courses.of(own)
+            if course.final and not isinstance(own, (Given, Way)):
+                first, *rest = linked(course.wires) or (None,)
+                new[own.id] = () if first is None else (replace(first, goes_on=own.goes_on or first.goes_on), *rest)
+        return self.network.replacing(new) if new else self.network
+
+    def wire(self, id: int) -> Wire | None:
+        """Return the wire with a number, as it runs now; of a request with several wires the last one."""
+        own = self.network.find(id)
+        if own is not None and not isinstance(own, (Given, Way)):
+            wires = self.courses.of(own).wires
+            return wires[-1] if wires else None
+        return next((wire for wire in self.drawn.wires if wire.id == id), None)
+
+    def wire_of(self, own: Request) -> Wire | None:
+        """Return the wire of a request that may not be in the network yet."""
+        return own.wire if isinstance(own, Given) else self.wire(own.id)
+
+    def is_final(self, own: Request) -> bool:
+        return self.courses.of(own).final
+
+    def how(self, along: str) -> How:
+        """Return the settings of a new wire."""
+        options = self.options
+        finish = options.finish if along == "SURFACE" and options.marking else DEFAULT_FINISH
+        return How(options.marking, self.network.mirror, self.engines.strengths[along], finish)
+
+    def draw(self) -> None:
+        """Derive the wires from the network and the courses."""
+        found = {own: self.courses.of(own).wires for own in self.network.requests}
+        last = {own.id: wires[-1] for own, wires in found.items() if wires}
+        drawn: list[Wire] = []
+        for own, wires in found.items():
+            for row, wire in enumerate(wires):
+                if row == 0 and wire.along == "EDGES":
+                    before = None if own.goes_on is None else last.get(own.goes_on[0])
+                    heading = None if before is None else heading_of(before, own.goes_on[1], own.start)
+                    wire = wire if heading == wire.heading else self._with_heading(wire, heading)
+                drawn.append(self._with_images(wire))
+        before, self.drawn = self.drawn, Drawn(tuple(drawn), self.network.strokes, self.network.mirror)
+        changed = before.wires != self.drawn.wires or before.mirror != self.drawn.mirror
+        self.network_revision += changed
+        self.revision += 1
+        if not changed and before == self.drawn:
+            self.drawn = before
+
+    def _with_heading(self, wire: Wire, heading: Edge | None) -> Wire:
+        known = self._completed.get(wire)
+        if known is None or known.heading != heading:
+            known = self._completed[wire] = wire.changed(heading=heading)
+        return known
+
+    def _with_images(self, wire: Wire) -> Wire:
+        if wire.images is not None:
+            return wire
+        if wire not in self._completed:
+            self._completed[wire] = self.images.completed(wire)
+        return self._completed[wire]
+
+    @property
+    def seed(self) -> Pick | None:
+        """The beginning of the live wire; None between chains."""
+        begin = self.begin()
+        return None if begin is None else begin.pick
+
+    def begin(self) -> Begin | None:
+        """Return where wires begin now; None between chains."""
+        seed = self.network.seed
+        if seed is None:
+            return None
+        return Begin.of(seed.pick, self.options.along, self.ground.heading(seed.after, seed.pick))
+
+    @property
+    def seed_place(self) -> Pick | None:
+        """The place where the live wire's seed is shown; None between chains."""
+        seed = self.network.seed
+        if seed is None:
+            return None
+        return undirected(seed.pick if self.options.along == "EDGES" else self.seed)
+
+    def seeds(self) -> list[Pick]:
+        """Return every seed, each once, in the order they were placed."""
+        ends = [
+            pick
+            for own in self.network.requests
+            for wire in self.courses.of(own).wires or (own,)
+            if not wire.closed
+            for pick in (wire.start, wire.end)
+        ]
+        live = self.seed_place
+        return list({undirected(pick): None for pick in (*ends, *(() if live is None else (live,)))})
+
+    @property
+    def seams(self) -> NDArray[np.int32]:
+        """The edges, (k, 2), that are seams, or will be because of the wires and their images. Sorted, the smaller vertex first."""
+        marked = [edge for wire in self.drawn.wires if wire.marks for edge in wire.claims()]
+        known = np.sort(np.concatenate([self.stops.seams, np.array(marked, dtype=np.int32).reshape(-1, 2)]), axis=1)
+        return np.unique(known, axis=0)
+
+    def mirrored(self, wire: Wire, curves: bool = False) -> list[Wire]:
+        """Return the images that a wire has, or would have if it were kept now; see `Symmetry.images`."""
+        return self.images.of(wire, self.drawn, curves)
+
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return the feature strength of each vertex, (n,), or None while it is computed."""
+        return self.engines.get(self.options.along).feature_strength()
+
+    def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
+        """Yield wires that run along seams, (k, 2), as few as possible. None of them is kept.
+
+        Raises ValueError if an edge is not part of the surface.
+        """
+        live = self.engines.get("EDGES").fork()
+        for chain in seam_chains(seams):
+            yield from waiting(live, wires_along(live, chain, self.points, self.engines.strengths["EDGES"]))
+
+    def find_parts(self, seams: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
+        """Yield the part of each triangle, (m,), for each of `AMOUNTS`, while `goes_on()`; nothing if there are no parts. Any thread may.
+
+        `seams`, (k, 2), part the mesh already. The next search with the same seams uses the measurements of a search that was stopped.
+        """
+        if self._make_parts is None:
+            return
+
+        def progress(_: float) -> bool:
+            return goes_on()
+
+        with suppress(native.load().Cancelled):
+            if self._finder is None or self._finder[0] != seams.tobytes():
+                axes = self.symmetry.symmetric_axes
+                preferred = [axis for axis in self.options.mirror if axis in axes]
+                axis = next(iter((*preferred, *axes)), None)
+                self._finder = seams.tobytes(), self._make_parts(axis, seams, progress)
+            for amount in AMOUNTS:
+                yield self._finder[1].find(amount, progress=progress).of_face
+
+    def refuse(self, why: str) -> bool:
+        """Tell why something is not done."""
+        self.reason = why
+        self.revision += 1
+        return False
+
+    def tell(self, what: str) -> None:
+        """Report something that happened."""
+        self.new_report = what
+        self.reports.append(self.new_report)
+        self.revision += 1
+
+    def go_to(self, network: Network) -> None:
+        """Go on to a network, without a step for undo."""
+        before, self.network = self.network, network
+        if before.strokes != network.strokes:
+            self.engines.follow(network.strokes)
+        self.draw()
+
+    def warn_of_triangles(self, along: Along) -> None:
+        warning = self.engines.warning(along)
+        if warning:
+            self.tell(warning)
+
+    def warn_of_images(self, course: Course) -> None:
+        for wire in course.wires:
+            warning = self.images.warning(wire)
+            if warning:
+                self.tell(warning)
