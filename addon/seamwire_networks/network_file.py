@@ -33,7 +33,7 @@ from .tool import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .tool import Record, Stroke, Wire
+    from .tool import Drawn, Record, Stroke, Wire
 
 FORMAT = "seamwire-network"
 VERSION = 1
@@ -54,7 +54,7 @@ class Origin(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Course:
+class FileCourse:
     """Where a wire runs, to be found on another mesh. The first vertex does not come again in a closed wire."""
 
     record: Record  # the wire, see `serialization.wire_record`
@@ -84,7 +84,7 @@ class NetworkFile:
     origin: Origin
     metric: str
     clamp: float  # the percentile of feature strengths that counts as the strongest
-    courses: tuple[Course, ...]  # by their vertices
+    courses: tuple[FileCourse, ...]  # by their vertices
     strokes: tuple[Record, ...]  # see `serialization.stroke_record`
 
     @classmethod
@@ -103,7 +103,7 @@ class NetworkFile:
         for wire in sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices):
             record = wire_record(wire, shape.where)
             chain = list(wire.vertices)
-            courses.append(Course(record, shape.places[chain], shape.normals[chain], shape.creases[chain]))
+            courses.append(FileCourse(record, shape.places[chain], shape.normals[chain], shape.creases[chain]))
         return cls(
             Origin(name, len(shape.points), len(shape.edges), len(shape.triangles), shape.moments),
             metric,
@@ -249,7 +249,7 @@ _PACKED = ("curve", "places", "ends", "faces")
 """Fields of a wire's record that its row in a file writes differently or leaves out, because other meshes have other triangles."""
 
 
-def _wire_row(course: Course) -> Mapping[str, object]:
+def _wire_row(course: FileCourse) -> Mapping[str, object]:
     record = course.record
     row = {name: value for name, value in record.items() if name not in _PACKED}
     if "curve" in record:
@@ -260,7 +260,7 @@ def _wire_row(course: Course) -> Mapping[str, object]:
     return row
 
 
-def _course(row: Mapping[str, Any], count: int) -> Course:
+def _course(row: Mapping[str, Any], count: int) -> FileCourse:
     vertices = _numbers(row["vertices"])
     if not isinstance(vertices, list) or not vertices:
         raise ValueError
@@ -281,7 +281,7 @@ def _course(row: Mapping[str, Any], count: int) -> Course:
     flat = [one for pick in (*picks, vertices) for one in (pick if isinstance(pick, list) else [pick])]
     if any(number >= count for number in flat):
         raise ValueError
-    return Course(checked_wire(record), places, normals, angles)
+    return FileCourse(checked_wire(record), places, normals, angles)
 
 
 def _stroke_row(record: Record) -> Mapping[str, object]:

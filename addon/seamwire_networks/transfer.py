@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from .network_file import Course, NetworkFile, NetworkFileError
+from .network_file import FileCourse, NetworkFile, NetworkFileError
 from .placing import (
     DOUBTFUL,
     PLACED,
@@ -227,7 +227,7 @@ def _by_surface(
         aligned, doubt = surface.align(points, moved, progress)
         way = aligned.after(way)
 
-    def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
+    def place(course: FileCourse, axes: tuple[int, ...], part: int | None = None) -> Placed:
         own = way.after(Similarity.mirroring(*axes))
         spacing = own.scale * course.spacing
         placed = surface.place(own.of(course.places), own.of_normals(course.normals), spacing, part)
@@ -260,7 +260,7 @@ def _by_pairs(
     def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
         return vertices().find(points, progress=progress.go_on)[0].astype(np.int64)
 
-    def place(course: Course, axes: tuple[int, ...]) -> Placed:
+    def place(course: FileCourse, axes: tuple[int, ...]) -> Placed:
         if axes:
             return landmarks.place(nearest(Similarity.mirroring(*axes).of(course.places)))
         return landmarks.place(np.array(course.record["vertices"], dtype=np.int64))
@@ -275,7 +275,7 @@ def _by_pairs(
 class _CoursePart:
     """A part of a wire between two seeds of the network: its vertices on the source, and where they are on the target."""
 
-    course: Course
+    course: FileCourse
     axes: tuple[int, ...]
     vertices: list[int]
     triangles: NDArray[np.int64]
@@ -327,9 +327,9 @@ class Tracing:
 
     def run(
         self,
-        place: Callable[[Course, tuple[int, ...]], Placed],
+        place: Callable[[FileCourse, tuple[int, ...]], Placed],
         place_stroke: Callable[[NDArray[np.float64]], Placed],
-        place_on: Callable[[Course, tuple[int, ...], int], Placed] | None = None,
+        place_on: Callable[[FileCourse, tuple[int, ...], int], Placed] | None = None,
     ) -> Transfer:
         """Draw all wires.
 
@@ -366,9 +366,9 @@ class Tracing:
     def _keep_together(
         self,
         group: list[int],
-        runs: list[tuple[Course, tuple[int, ...]]],
+        runs: list[tuple[FileCourse, tuple[int, ...]]],
         placed: list[Placed],
-        place_on: Callable[[Course, tuple[int, ...], int], Placed],
+        place_on: Callable[[FileCourse, tuple[int, ...], int], Placed],
     ) -> None:
         """Place what hangs together on the one part of the target that has most of it, as far as it has a place there."""
         parts = self._surface.parts
@@ -589,7 +589,7 @@ class Tracing:
         return on_mesh(stroke, shape.points, shape.triangles)
 
 
-def _placed(course: Course, axes: tuple[int, ...], placed: Placed) -> _CoursePart:
+def _placed(course: FileCourse, axes: tuple[int, ...], placed: Placed) -> _CoursePart:
     """Return the whole of a wire. A closed one ends at the vertex where it begins."""
     vertices = list(course.record["vertices"])
     whole = _CoursePart(course, axes, vertices, placed.triangles, placed.places, placed.confidence, course.creases)

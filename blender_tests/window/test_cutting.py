@@ -9,6 +9,7 @@ import pytest
 from desk import Desk, drag, draw, shows, undo_steps
 from scene import chain, changing, seams, snapshot
 from seamwire.core.network.picks import FacePoint
+from seamwire.core.sketch.dragging import Dragging
 from seamwire.core.sketch.picture import Role
 from seamwire.mesh import cut
 from seamwire.mesh.object_session import ObjectSession
@@ -294,7 +295,7 @@ def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) ->
     ui.move(cutting.at(44))
     ui.event("LEFTMOUSE", "PRESS", cutting.at(44))
     ui.move(cutting.at(61))
-    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.cursor.moved))
+    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.holds(Dragging).moved))
     ui.key("ESC")
     ui.event("LEFTMOUSE", "RELEASE", cutting.at(61))
     assert cutting.left_clean()

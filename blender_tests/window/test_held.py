@@ -7,7 +7,7 @@ import bpy
 import pytest
 from desk import Desk, draw
 from scene import chain, seams
-from seamwire.core.drawing.line import LineGesture
+from seamwire.core.sketch.lining import Lining
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 
@@ -62,8 +62,8 @@ class Hand:
         """Whether something is dragged."""
         shown = (
             edited.front.stroke is not None
-            or isinstance(self.session.is_held, LineGesture)
-            or self.session.cursor.drag is not None
+            or self.session.holds(Lining) is not None
+            or self.session.is_held
         )
         assert shown == (self.desk.running and self.desk.chain.hold is not None)
         return shown

@@ -145,7 +145,7 @@ class Monkey:
                 # Without a chain these are Blender's, and change the mesh: whether there is one must be known.
                 self.ui.wait(4)
                 live = running and running[0].session
-                if not live or live.seed is None or live.cursor.waiting or self.held:
+                if not live or live.seed is None or live.waiting or self.held:
                     return
             self.send(key, "PRESS", **held)
             self.send(key, "RELEASE")

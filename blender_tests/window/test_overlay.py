@@ -20,9 +20,9 @@ import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
 from seamwire.core.islands.islands import IslandMaker
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Picture, Role, ShownWire, shown_seeds
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.pose import Pose

@@ -8,7 +8,6 @@ from contextlib import contextmanager
 import bpy
 import pytest
 from desk import Desk, draw
-from seamwire.core.drawing.cursor import Cursor
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.islands.stretch import Stretch
@@ -92,7 +91,7 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     monkeypatch.setattr("seamwire.operators.chain.status_drawer", lambda _hints: told.append(session.progress))
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
-        monkeypatch.setattr(session.drawing, "progress", percent / 100.0)
+        monkeypatch.setattr(session, "progress", percent / 100.0)
         desk.chain.show()
         desk.chain.show()
     assert told == [0.1, 0.2, 0.3]
@@ -154,7 +153,7 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         (Stretch, "islands"),
         (CrestView, "poll"),
         *((Sketch, name) for name in ("follow", "hover", "poll", "adopt")),
-        (Cursor, "use_crests"),
+        (Sketch, "use_crests"),
     ):
         function = getattr(owner, name)
 

@@ -17,9 +17,9 @@ import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import Desk, choose, dismiss, draw, second_window, send, undo_steps
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
-from seamwire.core.drawing.wire import WireGesture
 from seamwire.core.sketch.picture import Role, SeedRole, ShownSeed
 from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.wiring import Wiring
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL, settings
@@ -499,8 +499,8 @@ def break_overlay(desk: Desk, broken: pytest.MonkeyPatch) -> None:
 
 def break_engine(desk: Desk, broken: pytest.MonkeyPatch) -> None:
     """Let everything fail that the library computes, also while the chain ends."""
-    for name in ("commit", "aim", "poll"):
-        broken.setattr(WireGesture, name, fail, raising=False)
+    for name in ("keep", "aim", "poll"):
+        broken.setattr(Wiring, name, fail, raising=False)
     desk.ui.click(desk.at(50))
 
 

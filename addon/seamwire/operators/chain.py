@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 
 from ..core.network.drawn import Drawn, edges_after
+from ..core.network.network import Snap
 from ..core.network.picks import FacePoint
 from ..core.sketch.change import Change
-from ..core.sketch.network import Snap
 from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.sketch.network import Snap
+from ..core.network.network import Snap
 from ..core.sketch.picture import Role
 from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
 from . import keymaps, undo_steps
-from .chain_events import Given, Sign
+from .chain_events import Meant, Sign
 from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, SeedHold, StrokeHold
 from .keymaps import HELP_PANEL
@@ -37,7 +37,7 @@ _OFFERED = (Action.LOOP, Action.BEND)
 # Motions
 
 
-def hover(chain: Chain, given: Given) -> None:
+def hover(chain: Chain, given: Meant) -> None:
     """Show what a click, or a key after *W*, would take."""
     assert given.place is not None
     loop, bend = (chain.keys.previews(action, given.event) for action in _OFFERED)
@@ -59,32 +59,32 @@ def rehover(chain: Chain, place: Place) -> None:
     chain.session.hover(snap if view is edited.front else None)
 
 
-def leave(chain: Chain, _given: Given) -> None:
+def leave(chain: Chain, _given: Meant) -> None:
     """Show nothing under a mouse that has left the view."""
     if chain.session.target is not None and chain.hold is None:
         chain.session.hover(None)
 
 
-def zoom(_chain: Chain, given: Given) -> None:
+def zoom(_chain: Chain, given: Meant) -> None:
     """Zoom, because the wheel alone swaps candidates."""
     assert given.place is not None
     keymaps.zoom(bpy.context, given.place, given.event)
 
 
-def drag(chain: Chain, given: Given) -> None:
+def drag(chain: Chain, given: Meant) -> None:
     """Let the held thing follow the mouse."""
     assert chain.hold is not None and given.place is not None
     if not chain.hold.move(given.place, drag_threshold(given.event, bpy.context.preferences)):
         chain.go(Cue.LET_GO)
 
 
-def trace(chain: Chain, given: Given) -> None:
+def trace(chain: Chain, given: Meant) -> None:
     """Let a line go through where the mouse was between two motions."""
     assert isinstance(chain.hold, LineHold) and given.place is not None
     chain.hold.follow(given.place)
 
 
-def release(chain: Chain, given: Given) -> None:
+def release(chain: Chain, given: Meant) -> None:
     """Do what was meant by a press and a release: a click, or a drag."""
     hold, title = chain.hold, ""
     assert hold is not None
@@ -105,7 +105,7 @@ def release(chain: Chain, given: Given) -> None:
 # Presses
 
 
-def click(chain: Chain, given: Given) -> None:
+def click(chain: Chain, given: Meant) -> None:
     """Take what is under the mouse, or begin to drag it."""
     action, place, event = given.what, given.place, given.event
     assert place is not None
@@ -151,7 +151,7 @@ def _is_loop(chain: Chain, session: Sketch, snap: Snap, event: bpy.types.Event) 
     return isinstance(snap.pick, tuple)
 
 
-def begin_stroke(chain: Chain, given: Given) -> None:
+def begin_stroke(chain: Chain, given: Meant) -> None:
     """Begin a stroke under the mouse."""
     assert given.place is not None
     chain.begin()
@@ -166,7 +166,7 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     chain.go(Cue.PRESS, hold)
 
 
-def has_target(given: Given, keys: Bindings) -> bool:
+def has_target(given: Meant, keys: Bindings) -> bool:
     """Return whether a press that may begin a chain finds something to act on, without changing anything."""
     if given.place is None:
         return False
@@ -179,7 +179,7 @@ def has_target(given: Given, keys: Bindings) -> bool:
     return wire is not None or (stroke is not None and given.what is Action.REMOVE)
 
 
-def _drawn_at(given: Given) -> tuple[ObjectView | None, Wire | None, Stroke | None]:
+def _drawn_at(given: Meant) -> tuple[ObjectView | None, Wire | None, Stroke | None]:
     """Return the object under the mouse, and the kept wire there, or else the stroke.
 
     A wire that was just given another path counts as there until the mouse moves.
@@ -191,7 +191,7 @@ def _drawn_at(given: Given) -> tuple[ObjectView | None, Wire | None, Stroke | No
     return view, None, None if view is None else view.stroke_at(given.place.view, given.place.cursor)
 
 
-def remove(chain: Chain, given: Given) -> bool:
+def remove(chain: Chain, given: Meant) -> bool:
     """Remove the wire or the stroke under the mouse, and return whether there was one."""
     view, wire, stroke = _drawn_at(given)
     if view is None or (wire is None and stroke is None):
@@ -207,7 +207,7 @@ def remove(chain: Chain, given: Given) -> bool:
     return True
 
 
-def retrace(chain: Chain, given: Given) -> bool:
+def retrace(chain: Chain, given: Meant) -> bool:
     """Let the wire under the mouse take its other path, and return whether there was one."""
     assert given.place is not None
     view, wire, _ = _drawn_at(given)
@@ -224,7 +224,7 @@ def retrace(chain: Chain, given: Given) -> bool:
 # Keys
 
 
-def swap(chain: Chain, given: Given) -> None:
+def swap(chain: Chain, given: Meant) -> None:
     """Take the next candidate, or the other path of the kept wire under the mouse."""
     chain.draw_on(edited.front)
     session = chain.session
@@ -236,7 +236,7 @@ def swap(chain: Chain, given: Given) -> None:
         session.next_candidate()
 
 
-def change_strength(chain: Chain, given: Given) -> None:
+def change_strength(chain: Chain, given: Meant) -> None:
     """Let wires follow the shape more or less."""
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
@@ -250,7 +250,7 @@ def change_strength(chain: Chain, given: Given) -> None:
         chain.say(f"Strength {strength:.3g}")
 
 
-def close(chain: Chain, given: Given) -> None:
+def close(chain: Chain, given: Meant) -> None:
     """Close the chain."""
     assert given.place is not None
     chain.draw_on(edited.front)
@@ -258,16 +258,16 @@ def close(chain: Chain, given: Given) -> None:
     chain.session.close(None if first is None else edited.front.seen_along(given.place.view, first))
 
 
-def extend(chain: Chain, _given: Given) -> None:
+def extend(chain: Chain, _given: Meant) -> None:
     """Show how the wire would run to its end, and at the second press keep it."""
     chain.draw_on(edited.front)
     chain.session.run_to_end(preview=chain.session.picture.one(Role.EXTENSION) is None)
 
 
-def toggle(name: str) -> Callable[[Chain, Given], None]:
+def toggle(name: str) -> Callable[[Chain, Meant], None]:
     """Return the function that changes a view or an aid which is on or off."""
 
-    def act(chain: Chain, given: Given) -> None:
+    def act(chain: Chain, given: Meant) -> None:
         setattr(settings(), name, not getattr(settings(), name))
         if chain.hold is None and given.place is not None:
             rehover(chain, given.place)
@@ -275,14 +275,14 @@ def toggle(name: str) -> Callable[[Chain, Given], None]:
     return act
 
 
-def clear(chain: Chain, _given: Given) -> None:
+def clear(chain: Chain, _given: Meant) -> None:
     """Clear seams, or mark them again, until the chain ends."""
     is_clearing = not settings().clear
     chain.switch("clear", is_clearing)
     chain.say("Clears seams until the chain ends" if is_clearing else "Marks seams")
 
 
-def switch(chain: Chain, given: Given) -> None:
+def switch(chain: Chain, given: Meant) -> None:
     """Draw across the surface, or along edges, until the chain ends."""
     assert given.place is not None
     is_across = chain.session.options.along == "EDGES"
@@ -291,7 +291,7 @@ def switch(chain: Chain, given: Given) -> None:
     rehover(chain, given.place)
 
 
-def cycle_mirror(chain: Chain, _given: Given) -> None:
+def cycle_mirror(chain: Chain, _given: Meant) -> None:
     """Mirror over the next axis, over all of them, or over none."""
     session, mesh = chain.session, edited.front.mesh
     try:
@@ -316,19 +316,19 @@ def cycle_mirror(chain: Chain, _given: Given) -> None:
     chain.say(f"Mirrored on {names}" if axes else "Not mirrored")
 
 
-def show_keys(_chain: Chain, _given: Given) -> None:
+def show_keys(_chain: Chain, _given: Meant) -> None:
     """Open the panel with all keys. The chain goes on when it closes."""
     bpy.ops.wm.call_panel("INVOKE_DEFAULT", name=HELP_PANEL)
 
 
-def undo(chain: Chain, _given: Given) -> None:
+def undo(chain: Chain, _given: Meant) -> None:
     """Undo within the chain. End the chain if nothing is left to undo."""
     chain.draw_on(edited.front)
     if not chain.session.undo():
         chain.end()
 
 
-def redo(chain: Chain, _given: Given) -> None:
+def redo(chain: Chain, _given: Meant) -> None:
     """Redo within the chain."""
     chain.draw_on(edited.front)
     chain.session.redo()
@@ -337,7 +337,7 @@ def redo(chain: Chain, _given: Given) -> None:
 # The table
 
 
-def _remove(chain: Chain, given: Given) -> bool:
+def _remove(chain: Chain, given: Meant) -> bool:
     """Remove what is under the mouse. If there is nothing, Blender's own meaning of the key changes the mesh."""
     is_removed = remove(chain, given)
     if not is_removed:
@@ -345,12 +345,12 @@ def _remove(chain: Chain, given: Given) -> bool:
     return not is_removed
 
 
-def _refuse(chain: Chain, _given: Given) -> None:
+def _refuse(chain: Chain, _given: Meant) -> None:
     """Do nothing, because the held button comes first."""
     chain.say("Release the button first")
 
 
-def _end_held(chain: Chain, given: Given) -> None:
+def _end_held(chain: Chain, given: Meant) -> None:
     """Cancel what is held if another button asks for it, as in Blender's own drags. A key waits."""
     if given.event.type.endswith("MOUSE"):
         chain.let_go()
@@ -358,7 +358,7 @@ def _end_held(chain: Chain, given: Given) -> None:
         _refuse(chain, given)
 
 
-ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
+ACTS: dict[Action | Sign, Callable[[Chain, Meant], bool | None]] = {
     Action.CLICK: click,
     Action.NEW_CHAIN: click,
     Action.LOOP: click,
@@ -393,7 +393,7 @@ ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     Sign.REPEAT: lambda *_: None,
 }
 """The function for each meaning. If it returns True, Blender has the event too."""
-WHILE_HELD: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
+WHILE_HELD: dict[Action | Sign, Callable[[Chain, Meant], bool | None]] = {
     **dict.fromkeys(Action, _refuse),
     **{what: ACTS[what] for what in Sign},
     Action.XRAY: ACTS[Action.XRAY],
@@ -412,7 +412,7 @@ _UNSEEN = frozenset({Sign.NOTHING, Sign.TRACE, Sign.REPEAT})
 """Signs after which there is nothing new to show."""
 
 
-def act(chain: Chain, given: Given) -> bool:
+def act(chain: Chain, given: Meant) -> bool:
     """Do what an event asks for, show it, and return whether Blender is to have the event too."""
     if given.what not in {Sign.TICK, Sign.RELEASE}:
         chain.set_cursor("CROSSHAIR" if given.place else "")
@@ -428,7 +428,7 @@ def act(chain: Chain, given: Given) -> bool:
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
 
 
-def act_first(chain: Chain, given: Given) -> None:
+def act_first(chain: Chain, given: Meant) -> None:
     """Do what begins a chain, under the mouse."""
     if given.what is Sign.HOVER:
         chain.go(Cue.PEEK, peek=given.event.type)

@@ -52,7 +52,7 @@ class Sign(Enum):
 
 
 @dataclass(frozen=True)
-class Given:
+class Meant:
     """Blender's event, its meaning, and the place in a 3D view under the mouse, if there is one."""
 
     what: Action | Sign
@@ -60,7 +60,7 @@ class Given:
     place: Place | None = None
 
 
-def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Given:
+def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Meant:
     """Return what an event means in the chain's state.
 
     An event may tell that a key or button is no longer held, although its release went elsewhere. Then the chain lets go first.
@@ -72,7 +72,7 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
     if chain.hold is not None and event.type == chain.hold.button and is_press:
         chain.let_go()  # another window has received the release, and this press is not a drag's
     if event.type == "TIMER":
-        return Given(Sign.TICK, event)
+        return Meant(Sign.TICK, event)
     if chain.hold is not None and event.value in {"PRESS", "RELEASE"}:  # motions may come without the modifiers
         chain.hold.follow_modifiers(event)
     # Another window may show another scene, where other objects are edited.
@@ -82,19 +82,19 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
     double = chain.clicks.is_second(event, time.monotonic(), context.preferences)
     hold = chain.hold
     if hold is not None and event.type == hold.button and event.value == "RELEASE":
-        return Given(Sign.RELEASE, event, place)
+        return Meant(Sign.RELEASE, event, place)
     motion = _motion(event, hold)
     if place is not None:
         if event.type.endswith("MOUSE") and hold is None and keymaps.on_gizmo(place, context.preferences):
-            return Given(Sign.NOTHING, event)
-        return Given(motion or _key(chain, context, event, double), event, place)
+            return Meant(Sign.NOTHING, event)
+        return Meant(motion or _key(chain, context, event, double), event, place)
     if event.type == "MOUSEMOVE":
-        return Given(Sign.AWAY, event)
+        return Meant(Sign.AWAY, event)
     if hold is not None and motion is None:
         what = _key(chain, context, event, double)
-        return Given(Sign.NOTHING if what is Sign.ZOOM else what, event)
+        return Meant(Sign.NOTHING if what is Sign.ZOOM else what, event)
     if event.value != "PRESS" or hold is not None or event.type in _HARMLESS:
-        return Given(Sign.NOTHING, event)
+        return Meant(Sign.NOTHING, event)
     # Undo in Blender would take wires out of the mesh that the chain writes again. Backspace alone resets a setting.
     action = chain.keys.decode(event, double)
     is_undo = action in {Action.UNDO, Action.REDO} and (event.ctrl or event.oskey)
@@ -102,8 +102,8 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
     has_view = any(area.type == "VIEW_3D" for area in context.window.screen.areas)
     is_elsewhere = context.window != chain.window and (is_undo or not has_view)
     if _is_over_settings(context.window, event) or is_elsewhere:
-        return Given(action if is_undo else Sign.NOTHING, event)
-    return Given(Sign.OTHER_TOOL, event)
+        return Meant(action if is_undo else Sign.NOTHING, event)
+    return Meant(Sign.OTHER_TOOL, event)
 
 
 def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, double: bool) -> Action | Sign:

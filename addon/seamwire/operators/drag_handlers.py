@@ -14,8 +14,8 @@ from . import undo_steps
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..core.network.network import Snap
     from ..core.picking.camera import Camera
-    from ..core.sketch.network import Snap
     from ..view.object_view import ObjectView
     from ..view.viewport import Place
     from ..words.keys import Event

@@ -128,7 +128,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
         from ..view.viewport import place_of
         from .chain import Chain
         from .chain_acts import act_first, has_target
-        from .chain_events import Given, Sign
+        from .chain_events import Meant, Sign
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
@@ -146,7 +146,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
                 settings(context).along = self.along
             edited.take_stock()
             what = Action[self.first] if self.first in Action.__members__ else Sign.HOVER
-            given = Given(what, event, place_of(context.window, event))
+            given = Meant(what, event, place_of(context.window, event))
             if self.first in _FOR_BLENDER and not has_target(given, keys(context)):
                 return {"PASS_THROUGH"}
             self._chain = Chain(context)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.sketch.network import Snap
+from ..core.network.network import Snap
 from ..mesh import settings as chosen
 from ..mesh.registration import Timer
 from ..mesh.settings import redraw_views

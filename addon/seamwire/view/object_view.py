@@ -36,11 +36,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..core.islands.islands import Islands
+    from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..core.picking.camera import Camera
-    from ..core.sketch.network import Snap
     from ..core.sketch.picture import Picture
     from ..core.sketch.sketch import Sketch
     from ..core.solver.solver import End

@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.islands.islands import Islands
+    from ..core.network.network import Snap
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
-    from ..core.sketch.network import Snap
     from ..core.sketch.picture import Picture, ShownWire
     from ..mesh.pose import Pose
     from .layers import Layer

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
     from ...terms.choices import LoopKind
     from ..network.drawn import Drawn
+    from ..network.network import Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
-    from ..sketch.network import Snap
     from ..solver.solver import Engines, LiveWire
     from .part_borders import PartBorders, VertexChain
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments, triangle_normals
+from ..network.network import Snap
 from ..network.picks import FacePoint, place_of
-from ..sketch.network import Snap
 from .camera import Projected, Segments, Sight
 from .plain import PlainPicker
 from .surface import VisibleSurface

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
+from ..network.network import Snap
 from ..network.picks import FacePoint
-from ..sketch.network import Snap
 from .camera import VERTEX_RADIUS, VERTEX_SHARE, Projected, Segments, nearest_edge
 from .surface import MAX_NEAR
 

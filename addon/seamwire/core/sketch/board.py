@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base import native
 from ..network.drawn import Drawn
+from ..network.network import Given, How, Network, Way, linked
 from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import Stroke, for_library
@@ -21,9 +22,7 @@ from ..offers.part_borders import AMOUNTS
 from ..seams.seam_wires import seam_chains, waiting, wires_along
 from ..solver.solver import Engines
 from .courses import Course, Courses
-from .interaction import Interaction
-from .network import Given, How, Network, Way, linked
-from .ways import Ground, heading_of
+from .ways import Begin, Ground, heading_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -32,12 +31,10 @@ if TYPE_CHECKING:
     from seamwire_core import PartFinder
 
     from ...terms.choices import Along
+    from ..network.network import Request
     from ..network.picks import Edge, Pick
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
-    from .network import Request
-
-    Kind = TypeVar("Kind", bound=Interaction)
 
 
 class Board:

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 from ..base.refused import Refused
+from ..network.network import Given, Request
 from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS
-from .network import Given, Request
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from ..network.network import CourseKey, Network
     from ..solver.solver import LiveWire
-    from .network import CourseKey, Network
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,22 +7,22 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..base.refused import Refused
+from ..network.network import Given, How, Way
 from ..network.picks import pick_name, undirected
 from ..solver.solver import for_live
 from .courses import Course
 from .interaction import Begun, Edit, Interaction
-from .network import Given, How, Way
 from .ways import Begin, WaySearch, backwards, choices, directed, ways_of
 from .wiring import only_vertices
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..network.network import Link, Network, Request, Snap
     from ..network.picks import Edge, End, Pick
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
     from .board import Board
-    from .network import Link, Network, Request, Snap
 
 
 class Leg:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..network.network import Network, Request, Snap
     from ..solver.solver import LiveWire
     from .board import Board
     from .courses import Course, Search
-    from .network import Network, Request, Snap
 
 
 class Begun(NamedTuple):

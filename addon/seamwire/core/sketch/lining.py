@@ -10,11 +10,11 @@ import numpy as np
 
 from ..base.half_edges import among
 from ..base.refused import Refused
+from ..network.network import Sought, linked, surface_vertex
 from ..network.picks import vertices_of
 from .courses import Course, Search
 from .interaction import Begun, Edit, Interaction
 from .line_wires import EdgeLine, SurfaceLine
-from .network import Sought, linked, surface_vertex
 from .wiring import only_vertices
 
 if TYPE_CHECKING:
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..network.network import How, Network, Seed, Snap
     from ..network.picks import Edge, Pick
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
     from .board import Board
-    from .network import How, Network, Seed, Snap
 
 
 _TOO_SHORT = "Drag farther along the surface to draw a line"

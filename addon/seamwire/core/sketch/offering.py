@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..base.refused import Refused
 from ..fields.crests import CREST_KINDS
+from ..network.network import Given, How, Snap, Sought
 from ..network.picks import FacePoint, pick_name, undirected
 from ..offers.edge_loops import LoopOffers, taken
 from ..offers.part_borders import PartBorders
@@ -15,7 +16,6 @@ from ..offers.surface_loops import SurfaceLoops
 from .courses import Course, Search, patiently
 from .interaction import Begun, Edit, Interaction
 from .lining import Lining
-from .network import Given, How, Snap, Sought
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ...terms.choices import DEFAULT_FINISH
+from ..network.network import Way
 from ..network.picks import undirected
 from .dragging import Dragging
 from .lining import Lining
-from .network import Way
 from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
 
 if TYPE_CHECKING:

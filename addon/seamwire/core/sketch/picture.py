@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
     from ...terms.choices import Finish, LoopKind
     from ..islands.islands import Islands
+    from ..network.network import Snap
     from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
-    from .network import Snap
 
 
 class Role(Enum):

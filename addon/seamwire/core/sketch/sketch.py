@@ -13,6 +13,7 @@ import numpy as np
 from ...terms.options import Options
 from ..base.refused import Refused
 from ..network.drawn import Drawn
+from ..network.network import CourseKey, History, How, Network, Snap, Way, linked
 from ..network.picks import undirected
 from ..network.strokes import Stroke, drawn, through_vertices
 from ..network.wires import FOLLOWS
@@ -22,7 +23,6 @@ from .courses import Course
 from .dragging import Dragging
 from .interaction import Begun, Edit, Interaction
 from .lining import Lining
-from .network import CourseKey, History, How, Network, Snap, Way, linked
 from .offering import Offering
 from .paint import paint
 from .picture import Work
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..fields.crests import Crests
+    from ..network.network import Request
     from ..network.picks import Edge, Pick
     from ..network.strokes import ActsOn
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
-    from .network import Request
     from .picture import Picture
 
     Kind = TypeVar("Kind", bound=Interaction)

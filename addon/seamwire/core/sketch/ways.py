@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.refused import Refused
+from ..network.network import surface_vertex
 from ..network.picks import FacePoint, pick_name, undirected
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .courses import Course, Search, patiently
-from .network import surface_vertex
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 
     from ...terms.choices import Along
     from ..network.drawn import Drawn
+    from ..network.network import Link, Network, Request, Way
     from ..network.picks import Edge, End, Pick
     from ..network.stops import Stops
     from ..solver.solver import Candidate, Candidates, LiveWire
-    from .network import Link, Network, Request, Way
 
 
 @dataclass(frozen=True)
 class Begin:
-    """Where the library's wires begin, and whether they go `forward` from a directed edge. `skips`: that edge belongs to the wire before."""
+    """Where the library's wires begin. They may go `forward` from a directed edge, which `skips` says belongs to the wire before."""
 
     pick: Pick
     forward: bool = False
@@ -88,7 +88,7 @@ def along_edges(
     points: NDArray[np.float64],
     moving: End = "end",
 ) -> Wire | None:
-    """Return the library's wire along edges between two picks, found towards its `moving` end. It ends once it passes the vertex `avoid`."""
+    """Return the library's wire along edges between two picks, found towards its `moving` end. It ends where it passes `avoid`."""
     vertices = tuple(int(v) for v in candidate.vertices)[begin.skips :]
     if avoid in vertices:
         vertices = vertices[: vertices.index(avoid) + 1]

@@ -10,22 +10,22 @@ import numpy as np
 
 from ..base import native
 from ..base.refused import Refused
+from ..network.network import Given, Way
 from ..network.picks import FacePoint, pick_name
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .courses import Course
 from .interaction import Begun, Edit, Interaction
-from .network import Given, Way
 from .picture import Intent
 from .ways import Begin, WaySearch, across, along_edges, goal, in_order
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..network.network import Network, Request, Snap
     from ..network.picks import Pick
     from ..solver.solver import LiveWire
     from .board import Board
-    from .network import Network, Request, Snap
 
 
 class Wiring(Interaction):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import halves, session_on
-from seamwire.core.sketch.network import Snap
+from seamwire.core.network.network import Snap
 from seamwire.core.sketch.picture import Intent, Role
 from seamwire.core.sketch.sketch import Sketch
 from setting import insert, use
@@ -269,7 +269,7 @@ def test_a_loop_and_clicks_are_found_in_any_order() -> None:
     session.wait()
     assert session.waiting == 0
     assert not session.computing
-    assert [wire.vertices for wire in session.wires][0] == COMPUTED, "no wire reaches 21"
+    assert session.wires[0].vertices == COMPUTED, "no wire reaches 21"
     assert [str(one) for one in session.reports] == ["No wire from vertex 0 reaches vertex 21"]
 
 

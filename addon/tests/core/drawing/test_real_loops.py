@@ -10,8 +10,8 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import AROUND, RINGS, ball, caps, halves, meridian, quads_between_rings, session_on, sides, tube
+from seamwire.core.network.network import Snap
 from seamwire.core.offers.edge_loops import corners
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along

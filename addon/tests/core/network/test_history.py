@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from seamwire.core.sketch.network import History, Network
+from seamwire.core.network.network import History, Network
 from table import wire
 
 EMPTY = Network()

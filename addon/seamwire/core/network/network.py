@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
-from ..network.picks import FacePoint, undirected, vertices_of
-from ..network.wires import Wire, new_id, split
+from .picks import FacePoint, undirected, vertices_of
+from .wires import Wire, new_id, split
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...terms.choices import Along, Finish
-    from ..network.picks import Edge, End, Pick
-    from ..network.strokes import Stroke
+    from .picks import Edge, End, Pick
+    from .strokes import Stroke
 
     Link = tuple[int, End]
     """An end of a request, by the number of the request."""
