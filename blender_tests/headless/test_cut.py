@@ -29,6 +29,7 @@ from scene import (
     seams,
     snapshot,
 )
+from seamwire.core.network.drawn import Drawn
 from seamwire.core.sketch.change import Change
 from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh import finishes
@@ -632,7 +633,7 @@ def test_hidden_faces_are_not_cut() -> None:
 def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     """Drag a seed of a kept wire to another vertex, as the tool does."""
     mesh = session_on(obj)
-    session, before = mesh.session, mesh.session.network
+    session, before = mesh.session, mesh.session.drawn
     assert session.drag(seed)
     session.drag_to(to)
     session.wait()
@@ -644,7 +645,7 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
 def remove(obj: bpy.types.Object, *seeds: int) -> None:
     """Remove the wires that begin or end at some seeds, as the tool does."""
     mesh = session_on(obj)
-    network = mesh.session.network
+    network = mesh.session.drawn
     for wire in network.wires:
         if {wire.start, wire.end} & {*seeds}:
             mesh.session.drop(wire)
@@ -652,7 +653,7 @@ def remove(obj: bpy.types.Object, *seeds: int) -> None:
 
 
 def _finish(mesh: ObjectSession, before: Drawn) -> None:
-    change = Change(before, mesh.session.network)
+    change = Change(before, mesh.session.drawn)
     write(mesh)
     finishes.apply(mesh, change)
 
@@ -740,7 +741,7 @@ def test_removing_a_cut_wire_leaves_the_faces_cut_whatever_blender_did_with_the_
     between(tmp_path)
     obj = bpy.data.objects[name]
     before = by_place(obj)
-    network = session_on(obj).session.network
+    network = session_on(obj).session.drawn
     assert len(network.wires) == 5, "two of them cross"
     remove(obj, *(wire.start for wire in network.wires))
     assert seams(obj) == []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Clicks and drags whose wires are not computed yet are awaited by what comes next. Only Esc and Undo forget them."""
+"""Clicks and drags whose wires are not computed yet are done at once. Only the end of a chain waits for the wires."""
 
 from __future__ import annotations
 
@@ -12,43 +12,16 @@ import pytest
 import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
-from seamwire.core.drawing.seed_drag import SeedDrag
-from seamwire.core.drawing.wire import WireGesture
+from seamwire.core.sketch.courses import Courses
+from seamwire.core.sketch.dragging import Dragging
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.operators.chain_state import Stage
 from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited
 from seamwire.words.notices import Notice
+from slow import Slow
 
 ROW, LONG_ROW = chain(*range(36, 41)), chain(*range(36, 45))
-
-
-class Slow:
-    """Lets wires be computed only when something waits for them.
-
-    Attributes
-    ----------
-    is_slow
-        Whether it does so by now.
-    """
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.is_slow = False
-        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, Session.wait
-
-        def slow_aim(drag: SeedDrag, target: object) -> object:
-            message = aim(drag, target)
-            drag.final &= not self.is_slow
-            return message
-
-        def waited(session: Sketch, **how: bool) -> None:
-            self.is_slow = False
-            wait(session, **how)
-
-        monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
-        monkeypatch.setattr(SeedDrag, "aim", slow_aim)
-        monkeypatch.setattr(Sketch, "wait", waited)
-        monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
 
 
 @pytest.fixture
@@ -185,15 +158,15 @@ def test_a_press_while_a_chain_ends_begins_another_chain(desk: Desk, slow: Slow,
     assert desk.chain.stage is Stage.ENDING
     ui.click(desk.at(0), **held)
     assert desk.chain.stage is Stage.DRAWING
-    assert seams(desk.obj) == LONG_ROW, "the chain that ends is kept"
     assert session.seed == 0
+    slow.is_slow = False
     ui.click(desk.at(4))
     ui.wait_until(lambda: len(session.wires) == 3)
     end(desk)
     assert seams(desk.obj) == sorted([*chain(*range(5)), *LONG_ROW])
     with ui.override():
         bpy.ops.ed.undo()
-    assert seams(desk.obj) == LONG_ROW, "each chain is a step of undo"
+    assert seams(desk.obj) == [], "both are one step of undo"
 
 
 def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) -> None:
@@ -204,6 +177,7 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
+    slow.is_slow = False
     ui.wait_until(lambda: not session.computing)
     end(desk)
     assert 53 in session.seeds()
@@ -219,7 +193,7 @@ def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pyte
     assert desk.left_clean()
     assert waits == []
     assert session.waiting == 0
-    assert seams(desk.obj) == ROW
+    assert seams(desk.obj) == LONG_ROW, "as it was drawn"
 
 
 def test_a_click_without_a_result_is_reported_when_the_chain_ends(
@@ -227,12 +201,12 @@ def test_a_click_without_a_result_is_reported_when_the_chain_ends(
 ) -> None:
     click_ahead(desk, slow)
     desk.ui.key("RET")
-    monkeypatch.setattr(WireGesture, "waits", True)
+    monkeypatch.setattr(Courses, "poll", lambda *_: ([], False))
     desk.ui.move(outside(desk.ui))
     desk.ui.event("LEFTMOUSE", "PRESS", outside(desk.ui))
     desk.ui.event("LEFTMOUSE", "RELEASE", outside(desk.ui))
     assert not desk.running
-    assert seams(desk.obj) == ROW
+    assert seams(desk.obj) == LONG_ROW, "as it was drawn"
     assert [notice.level for notice in reports if "without a result" in notice.text] == ["WARNING"]
 
 
@@ -253,21 +227,6 @@ def test_undo_by_a_script_takes_back_the_chain_before_and_keeps_what_was_drawn_s
     assert seams(desk.obj) == ROW, "and the wires before do not come back"
     assert len(desk.session.wires) == 1
     assert [notice.text for notice in reports if "1 wire" in notice.text] != []
-
-
-def test_x_removes_a_stroke_that_waits(desk: Desk, slow: Slow) -> None:
-    session = click_ahead(desk, slow)
-    stroke(desk)
-    assert session.waiting == 2
-    assert session.network.strokes == ()
-    desk.ui.move(desk.at(12))
-    desk.ui.key("X")
-    assert desk.running
-    assert session.waiting == 0
-    assert session.network.strokes == ()
-    assert session.picture.strokes == ()
-    end(desk)
-    assert seams(desk.obj) == LONG_ROW
 
 
 @pytest.fixture
@@ -384,7 +343,7 @@ def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Sl
     ui.move(desk.at(begin))
     ui.event("LEFTMOUSE", "PRESS", desk.at(begin))
     pull(desk, begin, goal)
-    assert session.cursor.drag
+    assert session.holds(Dragging)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
     slow.is_slow = False
     ui.wait_until(lambda: not session.waiting)
@@ -393,11 +352,36 @@ def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Sl
     assert set(session.seeds()) == {36, 44, 53} - {44, begin} | {goal}
 
 
-@pytest.mark.parametrize("key", ["ESC", "BACK_SPACE"])
-def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key: str) -> None:
+def test_undo_lets_a_released_seed_go_back(desk: Desk, slow: Slow) -> None:
     session = release_ahead(desk, slow)
-    desk.ui.key(key)
+    desk.ui.key("BACK_SPACE")
     slow.is_slow = False
     end(desk)
     assert 44 in session.seeds()
+    assert 53 not in session.seeds()
+
+
+def test_twenty_clicks_in_a_second_are_twenty_wires(desk: Desk, slow: Slow) -> None:
+    session, ui = desk.start(), desk.ui
+    slow.is_slow = True
+    picks = [36, 40, 22, 24, 6, 8, 26, 44, 42, 60, 58, 76, 74, 56, 54, 72, 70, 52, 50, 32, 30]
+    for pick in picks:
+        ui.click(desk.at(pick))
+    assert len(session.network.requests) == 20
+    assert session.waiting == 20
+    ui.key("RET")
+    assert desk.chain.stage is Stage.ENDING
+    slow.is_slow = False
+    ui.wait_until(lambda: not desk.running)
+    assert len(desk.session.wires) == 20
+    assert [wire.start for wire in desk.session.wires] != []
+
+
+def test_esc_ends_the_wait_and_keeps_wires_as_they_are_drawn(desk: Desk, slow: Slow) -> None:
+    click_ahead(desk, slow)
+    desk.ui.key("RET")
+    assert desk.chain.stage is Stage.ENDING
+    desk.ui.key("ESC")
+    desk.ui.wait_until(lambda: not desk.running)
+    assert slow.is_slow, "nothing was waited for"
     assert seams(desk.obj) == LONG_ROW

@@ -12,26 +12,25 @@ import pytest
 import ui as driver
 from desk import Desk, dismiss, draw
 from scene import chain, edit, seams
-from seamwire.core.drawing.wire import WireGesture
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.operators import chain_events
 from seamwire.operators.chain import Chain
 from seamwire.operators.chain_state import TRANSITIONS, Cue, Stage
 from seamwire.view.edited_objects import edited
+from slow import Slow
 
 EMPTY = 58
 """A vertex where nothing is drawn."""
 
 
 class Walk:
-    """A chain with all changes of its state. Wires are computed only while `is_free`."""
+    """A chain with all changes of its state. Wires are computed as `slow` says."""
 
     def __init__(self, desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
         self.desk, self.ui = desk, desk.ui
         self.monkeypatch = monkeypatch
         self.walked: list[tuple[Stage, Cue]] = []
-        self.is_free = True
-        go, waits = Chain.go, WireGesture.waits.fget
+        go, self.slow = Chain.go, Slow(monkeypatch)
 
         def noted(chain: Chain, cue: Cue, *held: object, **named: object) -> None:
             self.walked.append((chain.stage, cue))
@@ -40,7 +39,6 @@ class Walk:
             self.chain = chain
 
         monkeypatch.setattr(Chain, "go", noted)
-        monkeypatch.setattr(WireGesture, "waits", property(lambda wire: not self.is_free or waits(wire)))
 
     # Ways to a state
 
@@ -91,7 +89,7 @@ class Walk:
     def wait_to_end(self) -> None:
         self.draw()
         self.ui.move(self.desk.at(44))
-        self.is_free = False
+        self.slow.is_slow = True
         self.ui.click(self.desk.at(44))
         self.ui.key("RET")
 
@@ -116,7 +114,7 @@ class Walk:
         self.ui.event("LEFTMOUSE", "RELEASE")
 
     def compute(self) -> None:
-        self.is_free = True
+        self.slow.is_slow = False
 
     def undo_all(self) -> None:
         for _ in range(2):  # the wire and the seed
@@ -125,12 +123,12 @@ class Walk:
     def leave_mode(self) -> None:
         with self.ui.override():
             bpy.ops.object.mode_set(mode="OBJECT")
-        self.is_free = True
+        self.slow.is_slow = False
         self.ui.move(self.desk.ui.on_screen((0.3, 0.4, 0.0)))
 
     def fail(self) -> None:
         """Let the next event end on an error."""
-        self.is_free = True
+        self.slow.is_slow = False
         with self.monkeypatch.context() as broken:
             broken.setattr(chain_events, "read", partial(_raise, RuntimeError("broken")))
             self.ui.move(self.desk.at(20))
@@ -195,7 +193,6 @@ WALKS: list[tuple[Stage, Cue, Do]] = [
     (Stage.ENDING, Cue.BEGIN, Walk.stroke),
     (Stage.ENDING, Cue.END, Walk.compute),
     (Stage.ENDING, Cue.END, key("ESC")),
-    (Stage.ENDING, Cue.END, key("BACK_SPACE")),
     *((stage, Cue.CLOSE, Walk.leave_mode) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
     (Stage.OVER, Cue.CLOSE, key("RET")),
     (Stage.OVER, Cue.CLOSE, Walk.fail_to_write),
@@ -245,7 +242,7 @@ def test_the_transition(walk: Walk, stage: Stage, cue: Cue, do: Do) -> None:
         kept = [] if do in DROPS else KEPT[stage]
         assert seams(walk.desk.obj) == kept
         assert walk.chain.stage is Stage.CLOSED
-    walk.is_free = True
+    walk.slow.is_slow = False
     if walk.desk.running:
         walk.ui.event("LEFTMOUSE", "RELEASE")
         walk.ui.event("LEFT_ALT", "RELEASE")

@@ -60,11 +60,7 @@ class Hand:
     @property
     def holds(self) -> bool:
         """Whether something is dragged."""
-        shown = (
-            edited.front.stroke is not None
-            or self.session.holds(Lining) is not None
-            or self.session.is_held
-        )
+        shown = edited.front.stroke is not None or self.session.holds(Lining) is not None or self.session.is_held
         assert shown == (self.desk.running and self.desk.chain.hold is not None)
         return shown
 

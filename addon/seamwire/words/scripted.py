@@ -40,7 +40,7 @@ def draw_loop(session: Sketch, pick: Pick, kind: LoopKind | None = None) -> str:
     if done and session.wires != before:
         return ""
     # The shape may suggest no cut at a place.
-    return session.reason or f"The loop through {pick_name(pick)} is there already"
+    return session.told or f"The loop through {pick_name(pick)} is there already"
 
 
 def _turn_to(session: Sketch, edge: Edge, kind: LoopKind) -> bool:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
+from weakref import proxy
 
 import numpy as np
 
@@ -99,7 +100,10 @@ class Board:
         self.engines.use(options.metric, options.strengths, options.clamp)
         self.network = Network(mirror=options.mirror)
         self.courses = Courses()
-        self.ground = Ground(points, self.stops, lambda: self.network, lambda: self.drawn, self.wire)
+        own = proxy(self)
+        self.ground = Ground(
+            points, self.stops, lambda: own.network, lambda: own.drawn, lambda number: own.wire(number)
+        )
         self.progress = 0.0
         self.reason: str = ""
         self.reports: list[str] = []

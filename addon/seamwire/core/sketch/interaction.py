@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
+from weakref import proxy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,7 +44,7 @@ class Interaction:
     """
 
     def __init__(self, board: Board) -> None:
-        self._board = board
+        self._board: Board = proxy(board)  # the board holds its interactions
         self.target: Snap | None = None
         self.reason: str = ""
 

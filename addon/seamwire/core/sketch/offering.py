@@ -41,7 +41,8 @@ class Offering(Interaction):
     def __init__(self, board: Board) -> None:
         super().__init__(board)
         points, triangles, edges = board.points, board.triangles, board.edges
-        self.parts = PartBorders(points, triangles, edges, lambda: board.seams, board.find_parts)
+        own = self._board
+        self.parts = PartBorders(points, triangles, edges, lambda: own.seams, lambda *asked: own.find_parts(*asked))
         self.edges = LoopOffers(board.engines, board.stops, points, self.parts)
         self.cuts = SurfaceLoops(board.engines, triangles)
         self._crests: Crests | None = None

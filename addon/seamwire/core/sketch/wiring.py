@@ -220,6 +220,11 @@ class Wiring(Interaction):
         return self.active_final and (self.is_final or index == self.chosen or (self.settled and index == self.leading))
 
     @property
+    def is_done(self) -> bool:
+        """Whether a click keeps the active wire as it is: because it stays the one, or because the artist has seen it."""
+        return self._is_decided or (self._seen and self.active_final)
+
+    @property
     def _is_reached(self) -> bool:
         return not self.is_final or any(self.wires)
 
@@ -271,7 +276,7 @@ class Wiring(Interaction):
             raise Refused("The wire ends where it begins: click somewhere else")
         if self.reason and not self.runs:
             raise Refused(self.reason)
-        is_done = self._is_decided or (self._seen and self.active_final)
+        is_done = self.is_done
         closes = self._closes(network, target)
         way = Way(
             along=board.options.along,
@@ -310,7 +315,7 @@ class Wiring(Interaction):
             raise Refused("Nothing to extend: place a seed first")
         self._extend()
         wire, target = self.active, self.target
-        is_done = wire is None or self._is_decided or (self._seen and self.active_final)
+        is_done = wire is None or self.is_done
         end = seed.pick if wire is None or target is None else target.pick
         if self.extended is None and is_done and self.is_final:
             raise Refused(self.reason)
