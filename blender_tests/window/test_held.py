@@ -67,7 +67,7 @@ class Hand:
     def chain(self) -> tuple[object, ...]:
         """Return what no key may change."""
         names = ("along", "clear", "snap", "strength_edges", "finish")
-        kept = self.session.network
+        kept = self.session.drawn
         return (
             [wire.vertices for wire in kept.wires],
             kept.strokes,

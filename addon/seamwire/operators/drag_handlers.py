@@ -41,7 +41,7 @@ class Hold:
         self.follow_modifiers(event)
         self._view = view
         self._session = view.session
-        self._place = place
+        self.place = place
         self.snap = snap
         self.is_drag = False
 
@@ -52,7 +52,7 @@ class Hold:
     def move(self, place: Place, threshold: float) -> bool:
         """Follow the mouse. A drag begins beyond the threshold, in pixels. Return whether it is still held."""
         if not self.is_drag:
-            if place.away(self._place) <= threshold:
+            if place.away(self.place) <= threshold:
                 return True
             if not self.begin():
                 return False
@@ -146,8 +146,18 @@ class LineHold(Hold):
         """Begin a line."""
         if not self._session.line_begin(self.snap):
             return False
-        self._trail = Trail(self._view, self._place, ends_at_rim=False)
+        self._trail = Trail(self._view, self.place, ends_at_rim=False)
         return True
+
+    def begins_elsewhere(self, place: Place, threshold: float) -> bool:
+        """Whether a drag begins at a place, and not where the live wire begins."""
+        if self.is_drag or place.away(self.place) <= threshold or self._session.network.seed is None:
+            return False
+        return not self._session.goes_on_from(self.snap)
+
+    def go_to(self, view: ObjectView, snap: Snap) -> None:
+        """Hold the same place of an object that may have been read anew."""
+        self._view, self._session, self.snap = view, view.session, snap
 
     def follow(self, place: Place) -> None:
         """Take note of where the mouse was between two moves."""
@@ -187,7 +197,7 @@ class StrokeHold(Hold):
     def begin(self) -> bool:
         """Begin a stroke."""
         self._session.hover(None)
-        self._trail = Trail(self._view, self._place, ends_at_rim=True)
+        self._trail = Trail(self._view, self.place, ends_at_rim=True)
         return True
 
     def drag(self, place: Place) -> bool:
@@ -195,7 +205,7 @@ class StrokeHold(Hold):
         trail = self._trail
         assert trail is not None
         trail.to(place)
-        self._farthest = max(self._farthest, math.dist(self._place.cursor, place.cursor))
+        self._farthest = max(self._farthest, math.dist(self.place.cursor, place.cursor))
         self._view.stroke = (np.array(trail.points).reshape(-1, 3), self.attracts)
         return True
 
@@ -207,7 +217,7 @@ class StrokeHold(Hold):
         points, triangles = trail.points, trail.triangles
         if len(points) < 2:
             return ""
-        near = math.dist(self._place.cursor, trail.last.cursor) <= reach
+        near = math.dist(self.place.cursor, trail.last.cursor) <= reach
         if near and not trail.left and self._farthest > CLOSE_LENGTH * reach and len(points) > 2:
             points, triangles = [*points, points[0]], [*triangles, triangles[0]]
         self._session.draw_stroke(

@@ -443,7 +443,7 @@ class Sketch(Board):
     def finish(self, wait: bool = True) -> None:
         """End the chain, and `wait` until every wire is final. Otherwise wires stay as they are drawn. Those that are not there go."""
         self.end_chain()
-        if wait:
+        if wait and self.waiting:
             self.wait()
         self.courses.give_up(self.courses.unfinished(self.network))
         lost = [own.id for own in self.network.requests if not self.courses.of(own).wires]
