@@ -19,12 +19,11 @@ from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.surface_loops import CutMemory
-from ..core.seams import placed_edges
 from ..core.solver.solver import LiveMaker
 from ..core.storage import serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found
-from ..terms.options import Options
+from ..terms.options import PLACED, SCANNED, Options
 from ..words.notices import Notices
 from . import edit_mesh
 from .settings import mirror_axes, snapshot
@@ -43,18 +42,12 @@ if TYPE_CHECKING:
     from .settings import SeamwireSettings
 
 
-_EVERYWHERE = 0.8
-"""The fraction of the edges above which sharp edges say nothing about an artist: the whole mesh is shaded flat."""
-
-
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
     """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
-    data = obj.data
-    rigged = len(obj.vertex_groups) > 0 or data.shape_keys is not None
-    sharp = edit_mesh.column(data.edges, "use_edge_sharp", np.bool_)
-    is_sharp_here_and_there = sharp.any() and sharp.mean() <= _EVERYWHERE
-    marks = (len(data.uv_layers) > 0, is_sharp_here_and_there, data.has_custom_normals, len(data.materials) > 1)
-    return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
+    if len(obj.vertex_groups) or obj.data.shape_keys is not None:
+        return PLACED
+    is_scan = native.load().has_scanned_edges(arrays.points, arrays.triangles, arrays.polygons)
+    return SCANNED if is_scan else PLACED
 
 
 _MOMENT = 0.1
