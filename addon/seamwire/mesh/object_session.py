@@ -63,7 +63,6 @@ _taken_cuts = CutMemory()
 
 
 def forget_records() -> None:
-    """Forget the records and the closed cuts of the file that was open before."""
     global _archive
     _archive = Archive()
     _taken_cuts.clear()
@@ -138,7 +137,6 @@ class ObjectSession:
     # Symmetry
 
     def look_for_symmetry(self) -> None:
-        """Begin to find out over which axes the mesh is symmetric."""
         if self._looking is None:
             # A daemon: Blender must not wait for it to quit.
             self._looking = threading.Thread(target=self._look_for_symmetry, name="seamwire symmetry", daemon=True)
@@ -165,18 +163,15 @@ class ObjectSession:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
         return self.session.cursor.computing or self.session.cursor.waiting > 0 or looking or self._unstored
 
     # Settings
 
     def follow(self, settings: SeamwireSettings) -> None:
-        """Let the session follow the settings, and the mesh's own mirror."""
         self.session.follow(self.options(settings))
 
     def options(self, settings: SeamwireSettings) -> Options:
-        """Return the settings as they are now, for this object."""
         return snapshot(settings, self.cage.data, self.find_auto())
 
     def find_auto(self) -> Auto:
@@ -298,7 +293,6 @@ class ObjectSession:
                 continue
 
     def _store(self) -> None:
-        """Let the mesh hold the records that its labels call."""
         if self._newer:
             return
         text = self._archive.text(np.unique(self._labels.labels).tolist())
@@ -349,7 +343,6 @@ class ObjectSession:
         return written
 
     def adopt(self, plan: wire_labels.Plan) -> None:
-        """Let the session go on with the network that was written."""
         self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         _taken_cuts.keep(
             self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
@@ -405,5 +398,4 @@ class ObjectSession:
         return np.asarray(rows, dtype=np.int32)
 
     def drop_changes(self, network: Network) -> None:
-        """Go back to a network that the session had, whatever was drawn since."""
         self.session.adopt(replace(network, seed=None), self.plain_seams)
