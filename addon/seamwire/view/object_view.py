@@ -84,14 +84,12 @@ class ShownIslands:
 
     @property
     def pointed_island(self) -> int | None:
-        """The island under the mouse. None if there is no island, or only one."""
         found = self.newest
         if found is None or not found.cut or found.count < 2 or self.pointed is None:
             return None
         return int(found.labels[self.pointed])
 
     def set_seams(self, seams: NDArray[np.int32]) -> None:
-        """Go on with other seams."""
         if not np.array_equal(self._seams, seams):
             self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
             self._seams_read += 1
@@ -198,17 +196,14 @@ class ObjectView:
 
     @property
     def session(self) -> Session:
-        """The object's session."""
         return self.mesh.session
 
     @property
     def options(self) -> Options:
-        """The settings that the session follows."""
         return self.session.options
 
     @property
     def picture(self) -> Picture:
-        """Everything that is to be seen of the object now."""
         return replace(
             self.session.picture,
             islands=self.islands.newest,
@@ -218,7 +213,6 @@ class ObjectView:
         )
 
     def close(self) -> None:
-        """Let go of what works on threads."""
         self.session.cursor.loops.edges.stop_search()
         self._islands.close()
         for layer in self._layers:
