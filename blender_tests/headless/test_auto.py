@@ -7,7 +7,6 @@ from collections.abc import Callable
 import bpy
 import pytest
 from scene import edit
-from seamwire.core.seams import placed_edges
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.terms.options import PLACED, SCANNED, Auto
 
@@ -44,36 +43,3 @@ def test_a_scan_is_cut_unless_it_is_rigged(
     if rig is not None:
         rig(scan)
     assert auto(scan) == (SCANNED if rig is None else PLACED)
-
-
-def add_uvs(obj: bpy.types.Object) -> None:
-    obj.data.uv_layers.new()
-
-
-def add_sharp_edge(obj: bpy.types.Object) -> None:
-    obj.data.edges[7].use_edge_sharp = True
-
-
-def add_normals(obj: bpy.types.Object) -> None:
-    obj.data.normals_split_custom_set_from_vertices([v.co.normalized() for v in obj.data.vertices])
-
-
-def add_materials(obj: bpy.types.Object) -> None:
-    for name in "ab":
-        obj.data.materials.append(bpy.data.materials.new(name))
-
-
-MARKS = (add_uvs, add_sharp_edge, add_normals, add_materials)
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("marks", [(), *[(mark,) for mark in MARKS], MARKS], ids=len)
-def test_marks_are_counted(
-    marks: tuple[Callable[[bpy.types.Object], None], ...], scan: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for mark in marks:
-        mark(scan)
-    found = []
-    monkeypatch.setattr(placed_edges, "auto_for", lambda *arguments: found.append(arguments[-2:]))
-    auto(scan)
-    assert found == [(False, len(marks))]

@@ -172,7 +172,7 @@ def status(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         said.append(look(self))
         return said[-1]
 
-    monkeypatch.setattr(suggest_live.LiveParts, "_look", noted)
+    monkeypatch.setattr(suggest_live.LiveParts, "look", noted)
     return said
 
 

@@ -218,6 +218,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "cut_polygons": after(
             lambda n: (torus(n)[0], torus(n)[1].ravel(), np.full(len(torus(n)[1]), 3, np.int32)), sw.cut_polygons
         ),
+        "has_scanned_edges": after(torus, sw.has_scanned_edges),
         "plan_cuts": after(cut, sw.plan_cuts),
         "CutPlan.node_at": after(
             lambda n: (sw.plan_cuts(*cut(n)), torus(n)[1][0]),

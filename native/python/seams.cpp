@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "names.hpp"
 #include "rooms.hpp"
 #include "seamwire/parts/part_finder.hpp"
+#include "seamwire/parts/scanned_edges.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
@@ -224,7 +226,7 @@ const char* name_of(PartsBy by) {
   return by == PartsBy::kPanels ? "panels" : "rims";
 }
 
-PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, bool scan, bool nets,
+PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, std::optional<bool> scan, bool nets,
                             const py::object& front, const py::object& mirror, const py::object& marked,
                             const py::object& seams, const py::object& progress) {
   PartOptions options{.by = parts_by(by), .is_scan = scan, .has_nets = nets};
@@ -254,7 +256,39 @@ py::list borders_of(const Parts& parts) {
   return borders;
 }
 
+bool are_edges_scanned(const py::object& points, const py::object& triangles, const py::object& polygons) {
+  const std::vector<Vector> own_points = points_from(points, "points");
+  const std::vector<Triangle> own_triangles = triangles_from(triangles, "triangles");
+  std::vector<std::int32_t> own_polygons;
+  if (!polygons.is_none()) own_polygons = numbers_from(polygons, "polygons");
+  return without_gil([&] { return has_scanned_edges(own_points, own_triangles, own_polygons); });
+}
+
 void bind_parts(py::module_& module) {
+  module.def("has_scanned_edges", &are_edges_scanned, py::arg("points"), py::arg("triangles"),
+             py::arg("polygons") = py::none(),
+             R"(Tell whether the edges of a mesh come from a scan, a sculpt or a remesher.
+
+Wires should then run across the surface. Artists let edges run along and across the bends of the surface, and make
+faces small where the shape needs it. Scans have edges in all directions, and remeshed surfaces have edges of one
+length. Meshes of fewer than 2,000 triangles, or mostly of quads, count as an artist's.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+triangles : (m, 3) array_like of int
+polygons : (m,) array_like of int, optional
+    The polygon of each triangle. If not given, each triangle is one.
+
+Returns
+-------
+bool
+
+Raises
+------
+ValueError
+    If a vertex is out of range, or the arrays do not fit.
+)");
   py::class_<Parts>(module, "Parts", "The parts of a surface.")
       .def_property_readonly("of_face", array_of<Parts>(&Parts::of_face),
                              "(m,) int32: the part of each triangle, numbered as by `face_segments`.")
@@ -276,8 +310,9 @@ by : {'rims', 'limbs', 'panels', 'shape'}
     sculpts, or soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece
     has panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
     Everything else has rims.
-scan : bool
-    For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
+scan : bool, optional
+    For 'shape': whether the edges come from a scan. If not given, `has_scanned_edges` decides. From 20,000 triangles, a
+    mesh counts as a sculpt anyway.
 nets : bool
     For rims: whether flat faces that unfold into the plane together are one part, as those of a box.
 front : (3,) array_like, optional
@@ -301,7 +336,7 @@ ValueError
 Cancelled
 )")
       .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("by") = "rims",
-           py::arg("scan") = false, py::arg("nets") = true, py::arg("front") = py::none(),
+           py::arg("scan") = py::none(), py::arg("nets") = true, py::arg("front") = py::none(),
            py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
            py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),

@@ -2211,6 +2211,30 @@ class SeamPlanner:
     best_so_far: SeamPlan | None
     """SeamPlan or None: the best plan that a running or cancelled `plan` has found; None before the first. Any thread may read it."""
 
+def has_scanned_edges(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike | None = None) -> bool:
+    """Tell whether the edges of a mesh come from a scan, a sculpt or a remesher.
+
+    Wires should then run across the surface. Artists let edges run along and across the bends of the surface, and make
+    faces small where the shape needs it. Scans have edges in all directions, and remeshed surfaces have edges of one
+    length. Meshes of fewer than 2,000 triangles, or mostly of quads, count as an artist's.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    triangles : (m, 3) array_like of int
+    polygons : (m,) array_like of int, optional
+        The polygon of each triangle. If not given, each triangle is one.
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    ValueError
+        If a vertex is out of range, or the arrays do not fit.
+    """
+
 class Parts:
     """The parts of a surface."""
 
@@ -2236,8 +2260,9 @@ class PartFinder:
         sculpts, or soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece
         has panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
         Everything else has rims.
-    scan : bool
-        For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
+    scan : bool, optional
+        For 'shape': whether the edges come from a scan. If not given, `has_scanned_edges` decides. From 20,000 triangles, a
+        mesh counts as a sculpt anyway.
     nets : bool
         For rims: whether flat faces that unfold into the plane together are one part, as those of a box.
     front : (3,) array_like, optional
@@ -2266,7 +2291,7 @@ class PartFinder:
         surface: Surface,
         *,
         by: Literal["rims", "limbs", "panels", "shape"] = "rims",
-        scan: bool = False,
+        scan: bool | None = None,
         nets: bool = True,
         front: ArrayLike | None = None,
         mirror: Literal[0, 1, 2] | None = None,

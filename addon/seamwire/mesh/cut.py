@@ -150,7 +150,6 @@ def _carry_out(
 
 
 def _nodes(what: CutPlan) -> list[Node]:
-    """Return the nodes of a plan, without vertices that are not used."""
     counts = (what.vertices >= 0).sum(axis=1).tolist()
     rows = zip(counts, what.vertices.tolist(), what.weights.tolist(), strict=True)
     return [(tuple(vertices[:count]), tuple(weights[:count])) for count, vertices, weights in rows]

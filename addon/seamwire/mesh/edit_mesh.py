@@ -111,7 +111,6 @@ class Cage:
         return active.index
 
     def is_seam(self, pair: tuple[int, int]) -> bool:
-        """Whether there is such an edge, and it is a seam."""
         edge = _edge(self.number_bmesh(), pair)
         return edge is not None and edge.seam
 
@@ -335,7 +334,6 @@ def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
 
 @contextmanager
 def restored_after_errors(obj: bpy.types.Object) -> Iterator[None]:
-    """Restore the edit mesh of an object if an error occurs."""
     obj.update_from_editmode()
     before = obj.data.copy()
     try:
@@ -396,14 +394,12 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
 
 
 def _is_all_selected(data: bpy.types.Mesh) -> bool:
-    """Whether every vertex, edge and face of an edit mesh is selected."""
     bm = bmesh.from_edit_mesh(data)
     selected = data.total_vert_sel, data.total_edge_sel, data.total_face_sel
     return selected == (len(bm.verts), len(bm.edges), len(bm.faces))
 
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
-    """Select faces of an edit mesh by their numbers, beside what is selected."""
     bm = edit_bmesh(obj.data)
     for face in faces.tolist():
         bm.faces[face].select = True
@@ -412,5 +408,4 @@ def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
 
 
 def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
-    """Return the numbers of the selected faces of an edit mesh."""
     return np.array([face.index for face in edit_bmesh(obj.data).faces if face.select], dtype=np.int64)

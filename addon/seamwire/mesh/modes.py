@@ -104,7 +104,6 @@ def _set_mode(objects: list[bpy.types.Object], mode: str) -> None:
 
 
 def _select(objects: Iterable[bpy.types.Object]) -> None:
-    """Select objects of the view layer, and no others."""
     for each in bpy.context.view_layer.objects:
         if each.select_get():
             each.select_set(False)

@@ -17,13 +17,12 @@ from ..core.network.drawn import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.surface_loops import CutMemory
-from ..core.seams import placed_edges
 from ..core.sketch.sketch import Sketch
 from ..core.solver.solver import LiveMaker
 from ..core.storage import serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found
-from ..terms.options import Options
+from ..terms.options import PLACED, SCANNED, Options
 from ..words.notices import Notices
 from . import edit_mesh
 from .settings import mirror_axes, snapshot
@@ -42,18 +41,12 @@ if TYPE_CHECKING:
     from .settings import SeamwireSettings
 
 
-_EVERYWHERE = 0.8
-"""The fraction of the edges above which sharp edges say nothing about an artist: the whole mesh is shaded flat."""
-
-
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
     """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
-    data = obj.data
-    rigged = len(obj.vertex_groups) > 0 or data.shape_keys is not None
-    sharp = edit_mesh.column(data.edges, "use_edge_sharp", np.bool_)
-    is_sharp_here_and_there = sharp.any() and sharp.mean() <= _EVERYWHERE
-    marks = (len(data.uv_layers) > 0, is_sharp_here_and_there, data.has_custom_normals, len(data.materials) > 1)
-    return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
+    if len(obj.vertex_groups) or obj.data.shape_keys is not None:
+        return PLACED
+    is_scan = native.load().has_scanned_edges(arrays.points, arrays.triangles, arrays.polygons)
+    return SCANNED if is_scan else PLACED
 
 
 _MOMENT = 0.1
@@ -69,7 +62,6 @@ _taken_cuts = CutMemory()
 
 
 def forget_records() -> None:
-    """Forget the records and the closed cuts of the file that was open before."""
     global _archive
     _archive = Archive()
     _taken_cuts.clear()
@@ -142,7 +134,6 @@ class ObjectSession:
     # Symmetry
 
     def look_for_symmetry(self) -> None:
-        """Begin to find out over which axes the mesh is symmetric."""
         if self._looking is None:
             # A daemon: Blender must not wait for it to quit.
             self._looking = threading.Thread(target=self._look_for_symmetry, name="seamwire symmetry", daemon=True)
@@ -169,18 +160,15 @@ class ObjectSession:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
         return self.session.computing or self.session.waiting > 0 or looking or self._unstored
 
     # Settings
 
     def follow(self, settings: SeamwireSettings) -> None:
-        """Let the session follow the settings, and the mesh's own mirror."""
         self.session.follow(self.options(settings))
 
     def options(self, settings: SeamwireSettings) -> Options:
-        """Return the settings as they are now, for this object."""
         return snapshot(settings, self.cage.data, self.find_auto())
 
     def find_auto(self) -> Auto:
@@ -302,7 +290,6 @@ class ObjectSession:
                 continue
 
     def _store(self) -> None:
-        """Let the mesh hold the records that its labels call."""
         if self._newer:
             return
         text = self._archive.text(np.unique(self._labels.labels).tolist())

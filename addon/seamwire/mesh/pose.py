@@ -36,7 +36,6 @@ class Pose:
         self.is_bent = False
 
     def follow(self, obj: bpy.types.Object) -> bool:
-        """Read where the vertices are seen now, and return whether that has changed."""
         seen = _cage_points(obj, len(self._arrays.points))
         if seen is None and not self.is_bent:
             return False

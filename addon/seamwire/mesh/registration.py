@@ -38,8 +38,6 @@ def together(*changes: Change) -> tuple[Callable[[], None], Callable[[], None]]:
 
 
 def classes(*types: type) -> tuple[Change, ...]:
-    """Return the changes that register classes."""
-
     def change(each: type) -> Change:
         return lambda: bpy.utils.register_class(each), lambda: bpy.utils.unregister_class(each)
 
@@ -47,7 +45,6 @@ def classes(*types: type) -> tuple[Change, ...]:
 
 
 def menu_entry(menu: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> Change:
-    """Return the change that adds an entry to one of Blender's menus."""
     return lambda: getattr(bpy.types, menu).append(draw), lambda: getattr(bpy.types, menu).remove(draw)
 
 
@@ -69,7 +66,6 @@ class Timer:
 
     @property
     def is_running(self) -> bool:
-        """Whether Blender will call the function."""
         return bpy.app.timers.is_registered(self._call)
 
     def start(self, after: float = 0.0) -> None:
@@ -78,6 +74,5 @@ class Timer:
             bpy.app.timers.register(self._call, first_interval=after)
 
     def stop(self) -> None:
-        """Let Blender call the function no longer."""
         if self.is_running:
             bpy.app.timers.unregister(self._call)

@@ -47,7 +47,6 @@ def labels_of(arrays: Arrays) -> NDArray[np.int32]:
 
 
 def count_islands(obj: bpy.types.Object) -> int:
-    """Return how many islands an edit mesh has."""
     arrays = edit_mesh.read(obj)
     return int(labels_of(arrays).max(initial=-1)) + 1 if len(arrays.triangles) else 0
 

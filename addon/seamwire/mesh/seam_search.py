@@ -167,7 +167,6 @@ class Suggestion:
         return None if found is None else found.by.upper()
 
     def count(self, choice: PartChoice, progress: Progress) -> int:
-        """Return the number of parts of a choice."""
         return self._counted(self._parts_of(choice, progress))
 
     def choose(self, choice: PartChoice, progress: Progress) -> None:
@@ -318,7 +317,6 @@ class Suggestion:
 
     @property
     def wires(self) -> list[Wire]:
-        """The borders between the chosen parts, and the wires in them."""
         return [*border_wires(self.borders, self.mesh.arrays.points), *self.slits]
 
     def map(self) -> NDArray[np.float64] | None:
@@ -359,7 +357,6 @@ class Suggestion:
 
     @property
     def cuts(self) -> bool:
-        """Whether the wires in the parts are to be cut into the faces."""
         return self.along == "SURFACE" and bool(self.slits) and FINISHES[self.finish].cuts
 
     def write(self) -> None:
@@ -408,11 +405,9 @@ class SeamSearch:
 
     @property
     def are_alive(self) -> bool:
-        """Whether no mesh has changed since it was read."""
         return all(suggestion.mesh.alive() for suggestion in self)
 
     def count(self, choice: PartChoice, progress: Progress) -> int:
-        """Return the number of parts of all meshes for a choice."""
         return sum(suggestion.count(choice, share) for suggestion, share in self._shares(progress))
 
     def choose(self, choice: PartChoice, progress: Progress = lambda _: True) -> None:
@@ -448,12 +443,10 @@ class SeamSearch:
 
     @property
     def part_count(self) -> int:
-        """The number of chosen parts."""
         return sum(suggestion.part_count for suggestion in self)
 
     @property
     def automatic(self) -> set[PartsBy]:
-        """What *Auto* has found to separate the parts of the meshes."""
         return set(filter(None, (suggestion.automatic for suggestion in self)))
 
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
@@ -473,7 +466,6 @@ class SeamSearch:
 
     @property
     def has_wires(self) -> bool:
-        """Whether any wire was found."""
         return any(suggestion.wires for suggestion in self)
 
     @property
@@ -484,7 +476,6 @@ class SeamSearch:
 
     @property
     def to_cut(self) -> dict[ObjectSession, list[Wire]]:
-        """The wires that are to be cut into each mesh."""
         return {suggestion.mesh: suggestion.slits for suggestion in self if suggestion.cuts}
 
     def write(self, before_cuts: bool) -> None:

@@ -94,7 +94,6 @@ def snapshot(settings: SeamwireSettings, data: bpy.types.Mesh | None = None, aut
 
 
 def mirror_axes(data: bpy.types.Mesh) -> tuple[int, ...]:
-    """Return the axes over which Blender mirrors what is done to a mesh."""
     return tuple(axis for axis, name in enumerate("xyz") if getattr(data, f"use_mirror_{name}"))
 
 
@@ -106,7 +105,6 @@ def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPref
 
 
 def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
-    """Return the tool's settings."""
     return preferences(context).tool
 
 
@@ -115,7 +113,6 @@ notices = Notices()
 
 
 def tool_is_active(context: bpy.types.Context) -> bool:
-    """Return whether the tool is active in Edit Mode in the workspace."""
     if context.mode != "EDIT_MESH" or context.workspace is None:
         return False
     tool = context.workspace.tools.from_space_view3d_mode("EDIT_MESH", create=False)

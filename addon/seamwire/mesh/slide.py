@@ -31,7 +31,6 @@ _SAME = 6
 
 
 def faces_at(cage: Cage, arrays: Arrays, vertices: Iterable[int]) -> SlidFaces:
-    """Return the visible faces at some vertices."""
     verts = cage.number_bmesh().verts
     faces = (face for vertex in vertices for face in verts[vertex].link_faces if not face.hide)
     corners = {face.index: [vert.index for vert in face.verts] for face in faces}

@@ -246,7 +246,12 @@ class Chain:
         if obj is None:
             self.drawn_on, self._is_saved = None, False
             return "The object was removed"
-        if not view.mesh.rebind(obj):
+        seams = view.mesh.arrays.seams
+        is_same = view.mesh.rebind(obj)
+        after = view.mesh.arrays.seams
+        # The report counts no seams that others have marked.
+        self._seams = edges_after(self._seams, edges_after(after, (), seams), edges_after(seams, (), after))
+        if not is_same:
             return reason or "The mesh was changed"
         view.renew()
         return reason

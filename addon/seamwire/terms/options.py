@@ -159,7 +159,6 @@ class Options:
 
     @property
     def strengths(self) -> Mapping[Along, float]:
-        """How strongly wires follow the shape, for each way of running."""
         return {along: getattr(self, strength_name(along)) for along in ALONG}
 
     @property

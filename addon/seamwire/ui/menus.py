@@ -50,7 +50,6 @@ class VIEW3D_MT_seamwire_finish(bpy.types.Menu):
     bl_label = "Finish"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the finishes."""
         self.layout.operator_enum("mesh.seamwire_finish", "finish")
 
 
@@ -76,7 +75,6 @@ class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
     bl_label = "Islands"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show what is done with islands."""
         layout = self.layout
         for which, text in (("TO_CUT", "Select Islands to Cut"), ("WORST", "Select Worst Stretched Island")):
             layout.operator("mesh.seamwire_select_islands", text=text).which = which
@@ -92,7 +90,6 @@ class VIEW3D_MT_seamwire_views(bpy.types.Menu):
     bl_label = "Views"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show the views as toggles."""
         layout, chosen = self.layout, settings(context)
         for name, setting in SETTINGS.items():
             if setting.group == VIEWS:
@@ -116,7 +113,6 @@ class MESH_OT_seamwire_choose_tool(NeedsEditMode, bpy.types.Operator):
     bl_options: ClassVar[set[str]] = {"INTERNAL"}
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
-        """Choose the tool."""
         return bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
 
 

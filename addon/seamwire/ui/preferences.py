@@ -59,7 +59,6 @@ class SeamwirePreferences(_Chosen, bpy.types.AddonPreferences):
     bl_idname = ADDON
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show the preferences."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False

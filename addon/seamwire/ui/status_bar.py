@@ -39,7 +39,6 @@ def is_busy(context: bpy.types.Context) -> bool:
 
 
 def register() -> None:
-    """Add the hints."""
     STATUSBAR_HT_header.prepend(draw_idle)
     if hasattr(STATUSBAR_HT_header, "_draw_orig"):
         # An add-on has shown its own status before. Blender goes back to this function after each such status.
@@ -47,7 +46,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove the hints."""
     # While a chain is drawn, Blender keeps its own function aside.
     draw = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
     if draw_idle in draw._draw_funcs:

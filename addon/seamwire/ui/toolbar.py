@@ -54,7 +54,6 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
 
 
 def along_of(context: bpy.types.Context) -> Along:
-    """Return how wires run on the active object."""
     along = settings(context).along
     if along != "AUTO":
         return along
@@ -197,7 +196,6 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
 
     @staticmethod
     def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
-        """Show the settings in the tool's header or in the sidebar."""
         draw_settings(context, layout)
 
 

@@ -71,15 +71,12 @@ class CrestView(Layer):
         return new
 
     def close(self) -> None:
-        """End the search."""
         self._maker.close()
 
     def repose(self) -> None:
-        """Draw the lines where the pose has them now."""
         self._lines = None
 
     def draw_lines(self, eye: Eye) -> None:
-        """Draw the lines, ridges above valleys."""
         if not self._visible or self.crests is None:
             return
         if self._lines is None:
@@ -92,7 +89,6 @@ class CrestView(Layer):
                 lines.draw(eye)
 
     def legends(self) -> list[Legend]:
-        """Return the colors of ridges and valleys with their numbers."""
         if not self._visible:
             return []
         crests = self.crests

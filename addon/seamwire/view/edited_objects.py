@@ -56,7 +56,6 @@ class EditedObjects:
     # What there is
 
     def views(self) -> list[ObjectView]:
-        """Return the objects in Edit Mode that were pointed at."""
         return [view for view in self._views if view.mesh.alive()]
 
     def _view_of(self, obj: bpy.types.Object) -> ObjectView | None:
@@ -139,7 +138,6 @@ class EditedObjects:
             self.front = self.of(bpy.context.active_object)
 
     def clear(self, *_: object) -> None:
-        """Forget all objects, and draw nothing any more."""
         for view in tuple(self._views):
             self._remove(view)
         self._was_front = ""
@@ -221,7 +219,6 @@ class EditedObjects:
     # How they follow
 
     def follow_settings(self) -> None:
-        """Let the sessions follow the settings."""
         settings = chosen.settings()
         for view in self.views():
             view.mesh.follow(settings)
@@ -236,7 +233,6 @@ class EditedObjects:
             self.redraw()
 
     def on_settings(self) -> None:
-        """Take note that a setting was changed."""
         if self._views:
             self.follow_settings()
             self.watch()

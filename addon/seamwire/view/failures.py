@@ -52,7 +52,6 @@ class Failures:
         self._failed.clear()
 
     def clear(self) -> None:
-        """Forget everything."""
         self._failed.clear()
         self._told.clear()
 

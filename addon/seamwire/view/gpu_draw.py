@@ -275,11 +275,9 @@ class Within:
         self._made: dict[bytes, object] = {}
 
     def clear(self) -> None:
-        """Let all be made anew."""
         self._made.clear()
 
     def of(self, eye: Eye) -> object:
-        """Return the part that an eye sees."""
         if eye.border not in self._made:
             if len(self._made) == _BORDERS:
                 del self._made[next(iter(self._made))]

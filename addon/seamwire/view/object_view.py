@@ -84,14 +84,12 @@ class ShownIslands:
 
     @property
     def pointed_island(self) -> int | None:
-        """The island under the mouse. None if there is no island, or only one."""
         found = self.newest
         if found is None or not found.cut or found.count < 2 or self.pointed is None:
             return None
         return int(found.labels[self.pointed])
 
     def set_seams(self, seams: NDArray[np.int32]) -> None:
-        """Go on with other seams."""
         if not np.array_equal(self._seams, seams):
             self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
             self._seams_read += 1
@@ -203,12 +201,10 @@ class ObjectView:
 
     @property
     def options(self) -> Options:
-        """The settings that the session follows."""
         return self.session.options
 
     @property
     def picture(self) -> Picture:
-        """Everything that is to be seen of the object now."""
         return replace(
             self.session.picture,
             islands=self.islands.newest,

@@ -69,11 +69,9 @@ class Sheet:
             self._pieces.setdefault(style, []).append(np.stack([seen[:-1], seen[1:]], axis=1))
 
     def path(self, style: Style, vertices: Sequence[int]) -> None:
-        """Add a line through vertices."""
         self.edges(style, pairwise(vertices))
 
     def edges(self, style: Style, edges: Iterable[Edge]) -> None:
-        """Add edges of the mesh."""
         pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
         if len(pairs):
             self._pieces.setdefault(style, []).append(self._pose.points[pairs])
@@ -85,11 +83,9 @@ class Sheet:
         self._pieces.setdefault(style, []).append((ends[0] + parts * (ends[1] - ends[0])).reshape(-1, 2, 3))
 
     def dot(self, style: Style, pick: Pick) -> None:
-        """Add a dot at a pick."""
         self._places.setdefault(style, []).append(place_of(pick, self._pose.points))
 
     def finish(self) -> None:
-        """Prepare to draw what was added."""
         self.lines = [Lines(style, np.concatenate(parts)) for style, parts in self._pieces.items()]
         self.dots = [(style, np.array(places)) for style, places in self._places.items()]
 
@@ -141,7 +137,6 @@ class Overlay:
         self._tinted: object = None
 
     def repose(self) -> None:
-        """Draw everything where it is seen now."""
         self._sheets.clear()
         self._faces = self._tinted = None
         list(self._ask_layers("repose"))

@@ -177,7 +177,6 @@ class _ObjectPreview:
 
     @property
     def is_new(self) -> bool:
-        """Whether there are islands or a map that were not drawn yet."""
         found = self._islands.answer
         return self._take_map() or (found is not None and found.key != self._tinted)
 
@@ -203,7 +202,6 @@ class _ObjectPreview:
         self._islands.ask(self._count, cuts)
 
     def repose(self) -> None:
-        """Show all where modifiers bend the mesh to now, as in an animation."""
         if self._pose.follow(self.obj):
             self._faces = self._tinted = self._checks = None
             self._surface = self._posed_surface()
@@ -222,7 +220,6 @@ class _ObjectPreview:
         self._maps.check()
 
     def close(self) -> None:
-        """Let go of the threads that compute islands and maps."""
         self._islands.close()
         self._maps.close()
 
@@ -252,7 +249,6 @@ class _ObjectPreview:
     # Drawing
 
     def draw(self, looks: Looks) -> None:
-        """Draw in the view that Blender is drawing now."""
         eye = Eye(bpy.context.region_data, self.obj.matrix_world)
         found = self._islands.answer
         if self._faces is None:
@@ -301,7 +297,6 @@ class _ObjectPreview:
         yield looks.kept, self._curves.borders
 
     def point(self, border: int | None) -> bool:
-        """Highlight a border, or no border. Return whether that is new."""
         if border == self.hovered:
             return False
         self.hovered, self._lines = border, None
@@ -361,7 +356,6 @@ class PlanPreview:
         return min(found, key=lambda at: at[0])[1] if found else None
 
     def point(self, at: Pointed | None) -> None:
-        """Highlight the border under the mouse, or no border."""
         changed = [shown.point(at.border if at and at.obj == shown.obj else None) for shown in self._shown.values()]
         if any(changed):
             edited.redraw()

@@ -34,7 +34,6 @@ _NAMES = {"ANGLE": "Stretch of angles", "AREA": "Stretch of areas"}
 
 
 def heat_colors(opacity: float = 1.0) -> list[Color]:
-    """Return the colors from no stretch to the most."""
     return color_maps.steps(color_maps.STRETCH, _STEPS, opacity)
 
 
@@ -66,7 +65,6 @@ class StretchHeat(Layer):
 
     @property
     def shown(self) -> bool:
-        """Whether there is heat to be seen."""
         return self._kind != "NONE" and self._stretch is not None and not self._missing
 
     def read(self, obj: bpy.types.Object, kind: str, anew: bool = False) -> bool:
@@ -174,7 +172,6 @@ class StretchHeat(Layer):
         return self._outline[1]
 
     def legends(self) -> list[Legend]:
-        """Return what the colors mean, if stretch is to be seen."""
         if self._kind == "NONE":
             return []
         if self._missing:

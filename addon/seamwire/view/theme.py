@@ -110,7 +110,6 @@ def looks_of(theme: bpy.types.ThemeView3D, preferences: object | None = None) ->
 
 
 def faint(color: Color, opacity: float) -> Color:
-    """Return a color with a share of its opacity."""
     return (*color[:3], color[3] * opacity)
 
 

@@ -113,7 +113,6 @@ def _offer(kind: LoopKind) -> str:
 
 
 def _wires(picture: Picture) -> Iterator[Deed]:
-    """Yield what other keys do to wires."""
     # Imported late, because it needs NumPy, and Blender's start should not wait for that.
     from ..core.sketch.picture import Role
 
@@ -139,7 +138,6 @@ def _wires(picture: Picture) -> Iterator[Deed]:
 
 
 def _guides(status: Status) -> Iterator[Deed]:
-    """Yield the keys for settings and strokes."""
     picture, options = status.picture, status.picture.options
     if status.mirror_offer and not options.mirror:
         yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"

@@ -48,7 +48,6 @@ class Key:
 
     @classmethod
     def of(cls, event: Event) -> Key:
-        """Return what an event presses."""
         return cls(event.type, event.value, *(int(getattr(event, name)) for name in MODIFIERS))
 
     def matches(self, event: Event, value: str) -> bool:
@@ -66,13 +65,11 @@ class Key:
 
     @property
     def modifiers(self) -> str:
-        """The modifiers that must be held, as Blender writes them."""
         names = (("Shift", self.shift), ("Ctrl", self.ctrl), ("Alt", self.alt), ("Cmd", self.oskey))
         return " ".join(name for name, want in names if want == 1)
 
     @property
     def text(self) -> str:
-        """The key in words."""
         double = "Double-" if self.value == "DOUBLE_CLICK" else ""
         name = double + _NAMES.get(self.type, self.type.replace("_", " ").title())
         return f"{self.modifiers} {name}".strip()
@@ -199,7 +196,6 @@ class Bindings:
         return next((action for value in values for action, key in self._keys if key.matches(event, value)), None)
 
     def keys_of(self, action: Action) -> list[Key]:
-        """Return the keys of an action."""
         return [key for of, key in self._keys if of is action]
 
     def previews(self, action: Action, event: Event) -> bool:

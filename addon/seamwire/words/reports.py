@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 
 def count(number: int, what: str, several: str = "") -> str:
-    """Return a number with what it counts."""
     return f"{number} {what if number == 1 else several or what + 's'}"
 
 

@@ -54,12 +54,10 @@ class Outcome:
 
     @property
     def is_good(self) -> bool:
-        """Whether everything that was asked for was reached."""
         return not (self._problems() or self.faults)
 
     @property
     def text(self) -> str:
-        """The report as one line."""
         if not self.wires:
             return self._text_without_wires()
         parts = [count(self.wires, "wire")]

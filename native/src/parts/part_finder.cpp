@@ -33,6 +33,7 @@
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/errors.hpp"
+#include "seamwire/parts/scanned_edges.hpp"
 #include "seamwire/task.hpp"
 #include "slits/slit_plan.hpp"
 #include "surface/real_edges.hpp"
@@ -458,7 +459,10 @@ void PartFinder::Impl::prepare(const Task& task) {
   odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(),
                      tuning::kPartOnPlane, task);
   regions = regions_of(polygons, task);
-  if (options.by == PartsBy::kShape) smooth_figure(frames, part_of(task, 0.8, 0.85));
+  if (options.by == PartsBy::kShape) {
+    if (!options.is_scan) options.is_scan = has_scanned_edges(mesh.points, mesh.triangles, polygons.of_face);
+    smooth_figure(frames, part_of(task, 0.8, 0.85));
+  }
   if (options.by == PartsBy::kLimbs ||
       (options.by == PartsBy::kShape && !smooth && has_figure(frames, part_of(task, 0.85, 0.85)))) {
     limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.85, 0.95));
@@ -483,7 +487,7 @@ void PartFinder::Impl::prepare(const Task& task) {
 bool PartFinder::Impl::has_figure(std::span<const FaceFrame> frames, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
   if (!is_round(mesh, frames, sizes, task)) return false;
-  if (options.is_scan || mesh.face_count() >= tuning::kLeastSculpt) return true;
+  if (*options.is_scan || mesh.face_count() >= tuning::kLeastSculpt) return true;
   if (std::ranges::count(find_garments(mesh, polygons, sizes, bends, task), 1) > 0) return false;
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
   return is_soft(mesh, frames, sizes, bends, joined(kDefaultAmount, none, {}, task), task);
@@ -493,7 +497,7 @@ bool PartFinder::Impl::has_figure(std::span<const FaceFrame> frames, const Task&
 /// are sharp, so they do not tell which features matter. A mesh of triangles is what its author sees.
 void PartFinder::Impl::smooth_figure(std::span<const FaceFrame> frames, const Task& task) {
   const PlanMesh& mesh = *problem.mesh;
-  if (!may_smooth || options.is_scan || polygons.count > tuning::kMostCoarse || !is_round(mesh, frames, sizes, task))
+  if (!may_smooth || *options.is_scan || polygons.count > tuning::kMostCoarse || !is_round(mesh, frames, sizes, task))
     return;
   std::vector<std::uint8_t> is_triangle(polygons.count, 1);
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
@@ -505,7 +509,7 @@ void PartFinder::Impl::smooth_figure(std::span<const FaceFrame> frames, const Ta
   auto found = std::make_unique<Impl>();
   found->surface = std::move(shape.surface);
   found->may_smooth = false;
-  found->options = {.by = PartsBy::kShape, .front = options.front, .mirror = options.mirror};
+  found->options = {.by = PartsBy::kShape, .is_scan = false, .front = options.front, .mirror = options.mirror};
   found->prepare(part_of(task, 0.1, 1.0));
   if (!found->limbs) return;
   smooth = std::move(found);

@@ -399,4 +399,28 @@ inline constexpr double kLeastOfPanels = 0.01;
 /// Least log odds of edges between panels.
 inline constexpr double kPanelOdds = 4.0;
 
+// Scans. Each limit lies in the middle of a gap between artists' meshes, and scans, sculpts and remeshed surfaces, see
+// docs/method/defaults.md.
+
+/// Triangles below which the edges of a mesh are an artist's, who had to spare triangles.
+inline constexpr std::size_t kLeastScan = 2000;
+/// Triangles that are judged of a larger mesh, and the bands in which they lie.
+inline constexpr std::size_t kMostJudged = 25000;
+inline constexpr int kBands = 8;
+/// How well the edges of artists follow the bends of the surface.
+inline constexpr double kFollows = 0.28;
+/// Spread of the lengths of edges below which a remesher made them, unless the mesh is regular, and the share of
+/// regular vertices of such a mesh.
+inline constexpr double kUniform = 0.33;
+inline constexpr double kRegular = 0.96;
+/// Spread from which on edges are an artist's, even if they do not follow the bends: those of scans reach 0.5.
+inline constexpr double kUneven = 0.6;
+/// Share of the area in flat triangles from which on edges are an artist's, even if they do not follow the bends.
+inline constexpr double kFlatSides = 0.2;
+/// The largest cosine of a corner of a quad: corners have 55 to 125 degrees.
+inline constexpr double kQuadSkew = 0.57;
+/// Angles between triangles, in radians, that do not bend, and that lie in a plane (0.5 degrees).
+inline constexpr double kUnbent = 1e-3;
+inline constexpr double kInPlane = 0.0087;
+
 }  // namespace seamwire::detail::tuning

@@ -22,6 +22,7 @@
 #include "parts/limbs.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/errors.hpp"
+#include "seamwire/parts/scanned_edges.hpp"
 #include "shapes.hpp"
 #include "surface/real_edges.hpp"
 
@@ -161,12 +162,19 @@ TEST(Limbs, AreOneWhereTheSurfaceHasNone) {
 TEST(Limbs, ShapeTellsFiguresFromMachineParts) {
   const PartOptions by_shape{.by = PartsBy::kShape, .is_scan = true};
   EXPECT_EQ(finder_of(star(4), by_shape).by(), PartsBy::kLimbs);
-  EXPECT_EQ(finder_of(star(4), {.by = PartsBy::kShape}).by(), PartsBy::kRims) << "5,000 edges of an artist";
+  EXPECT_EQ(finder_of(star(4), {.by = PartsBy::kShape, .is_scan = false}).by(), PartsBy::kRims)
+      << "5,000 edges of an artist";
   EXPECT_EQ(finder_of(star(5), {.by = PartsBy::kShape}).by(), PartsBy::kLimbs) << "20,000 triangles";
   EXPECT_EQ(finder_of(shapes::grid(8), by_shape).by(), PartsBy::kRims);
   const PartFinder cube(std::make_shared<const Surface>(shapes::quad_cube(8).surface()), by_shape);
   EXPECT_EQ(cube.by(), PartsBy::kRims);
   EXPECT_EQ(cube.find(1.0).count, 6u);
+}
+
+TEST(Limbs, ShapeDecidesItselfWhatAScanIs) {
+  const shapes::Mesh mesh = star(4);
+  const bool is_scan = has_scanned_edges(mesh.points, mesh.triangles);
+  EXPECT_EQ(finder_of(mesh, {.by = PartsBy::kShape}).by(), is_scan ? PartsBy::kLimbs : PartsBy::kRims);
 }
 
 TEST(Limbs, ShapeOfASoftBodyHasNoRims) {

@@ -77,12 +77,10 @@ _Numbers = TypeVar("_Numbers", int, "NDArray[np.int64]")
 
 
 def after(half_edge: _Numbers) -> _Numbers:
-    """Return the next half-edge of the triangle, of one or of many."""
     return half_edge - half_edge % 3 + (half_edge + 1) % 3
 
 
 def before(half_edge: _Numbers) -> _Numbers:
-    """Return the half-edge before, of one or of many."""
     return half_edge - half_edge % 3 + (half_edge + 2) % 3
 
 

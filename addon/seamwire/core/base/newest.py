@@ -35,7 +35,6 @@ class Newest(Generic[Asked, Answer]):
 
     @property
     def answer(self) -> Answer | None:
-        """The latest result."""
         return self._answer
 
     def check(self) -> None:
@@ -46,11 +45,9 @@ class Newest(Generic[Asked, Answer]):
 
     @property
     def superseded(self) -> bool:
-        """Whether what is being computed is not wanted any more."""
         return bool(self._wanted) or self._closed
 
     def want(self, request: Asked) -> None:
-        """Ask for something."""
         with self._lock:
             if self._closed:
                 return

@@ -130,7 +130,6 @@ class _Ways:
         self._begin = np.searchsorted(tails[order], np.arange(len(points) + 1))
 
     def beside(self, vertex: int) -> NDArray[np.int32]:
-        """Return the vertices that share an edge with one."""
         return self._heads[self._begin[vertex] : self._begin[vertex + 1]]
 
     def nearest(

@@ -166,7 +166,6 @@ STEP = 0.05
 
 
 def edges_of(chain: NDArray[np.int32]) -> frozenset[Edge]:
-    """Return the edges of a chain of vertices, each with the smaller vertex first."""
     return frozenset(undirected(pair) for pair in pairwise(chain.tolist()))
 
 
@@ -182,15 +181,12 @@ class PartEdits:
     parted: tuple[int, ...] = ()
 
     def keep(self, edges: frozenset[Edge]) -> PartEdits:
-        """Return the edits with edges that have to be borders."""
         return replace(self, kept=self.kept | edges, dropped=self.dropped - edges)
 
     def drop(self, edges: frozenset[Edge]) -> PartEdits:
-        """Return the edits with edges that must not be borders."""
         return replace(self, kept=self.kept - edges, dropped=self.dropped | edges)
 
     def part(self, polygon: int) -> PartEdits:
-        """Return the edits with one more cut of the part that has a polygon."""
         return replace(self, parted=(*self.parted, polygon))
 
     def on(self, edges: NDArray[np.int32], polygons: NDArray[np.int32]) -> dict[str, NDArray[np.int32]]:

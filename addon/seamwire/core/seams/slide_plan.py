@@ -51,7 +51,6 @@ class SlidFaces:
 
     @cached_property
     def at(self) -> dict[int, list[int]]:
-        """The polygons at each vertex."""
         found: dict[int, list[int]] = defaultdict(list)
         for polygon, rim in self.corners.items():
             for vertex in rim:
@@ -59,7 +58,6 @@ class SlidFaces:
         return found
 
     def rows_of(self, polygon: int) -> Sequence[int]:
-        """Return the triangles of a polygon."""
         # Of the same type, or all of the array would be converted.
         bounds = np.array((polygon, polygon + 1), dtype=self.polygons.dtype)
         return range(*np.searchsorted(self.polygons, bounds).tolist())
@@ -116,7 +114,6 @@ def _is_on_feature(faces: SlidFaces, vertex: int) -> bool:
 
 
 def _corner_triples(rim: Sequence[int]) -> list[tuple[int, int, int]]:
-    """Return each corner of a polygon with those before and after it."""
     return [(rim[at - 1], rim[at], rim[(at + 1) % len(rim)]) for at in range(len(rim))]
 
 
@@ -203,7 +200,6 @@ def _without_damage(faces: SlidFaces, moves: dict[int, Move]) -> dict[int, Move]
 
 
 def _half_way(move: Move, vertex: int) -> Move:
-    """Return a move of a vertex half as far."""
     weights = {corner: 0.5 * weight for corner, weight in zip(move.corners, move.weights, strict=True)}
     weights[vertex] = weights.get(vertex, 0.0) + 0.5
     return Move(move.polygon, tuple(weights), tuple(weights.values()))

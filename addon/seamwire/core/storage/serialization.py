@@ -337,7 +337,6 @@ def _stored(pick: Pick) -> int | tuple[int, int]:
 
 
 def pick_of(stored: int | list[int]) -> Pick:
-    """Return a stored pick."""
     if isinstance(stored, list):
         one, two = stored
         return int(one), int(two)

@@ -51,11 +51,9 @@ class EdgeLabels:
 
     @classmethod
     def none(cls) -> EdgeLabels:
-        """Return those of a mesh that has none."""
         return cls(np.empty((0, 2), np.int64), np.empty(0, np.int64), np.empty(0, bool), np.empty(0, bool))
 
     def same_as(self, other: EdgeLabels) -> bool:
-        """Whether another mesh has the same labels on the same edges, with the same seams and hidden edges."""
         return all(
             np.array_equal(getattr(self, name), getattr(other, name)) for name in ("pairs", "labels", "seams", "hidden")
         )
@@ -178,7 +176,6 @@ def _asked_for(
 
 
 def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> list[Edge]:
-    """Return an edge or several where a stroke begins."""
     corners = set(stroke.corners[0].tolist())
     near = edges[np.isin(edges, list(corners)).any(axis=1)]
     inside = [pair for pair in near.tolist() if corners.issuperset(pair)] if len(corners) > 1 else []

@@ -30,8 +30,9 @@ enum class PartsBy {
 struct PartOptions {
   /// What separates parts. Limbs do not depend on `marked`.
   PartsBy by = PartsBy::kRims;
-  /// For kShape: whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
-  bool is_scan = false;
+  /// For kShape: whether the edges come from a scan; nullopt: as has_scanned_edges says. From 20,000 triangles, a mesh
+  /// counts as a sculpt anyway.
+  std::optional<bool> is_scan = std::nullopt;
   /// For rims: whether flat faces that unfold into the plane together are one part, as those of a box.
   bool has_nets = true;
   /// The direction to the viewer. Limbs that kShape finds have no borders around a face there. For kPanels it is the

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who placed the edges of a mesh, and what Auto stands for on it."""
+"""Who placed the edges of a mesh."""
 
 from __future__ import annotations
 
@@ -8,23 +8,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+import seamwire_core as sw
 from numpy.typing import NDArray
-from seamwire.core.seams import placed_edges
-from seamwire.core.seams.placed_edges import EdgeSigns, auto_for
-from seamwire.terms.options import PLACED, SCANNED, Auto
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 """(n, 3) vertices and (m, 3) triangles."""
-
-
-def auto(mesh: Mesh, rigged: bool = False, marks: int = 0) -> Auto:
-    points, triangles = mesh
-    return auto_for(points, triangles, np.arange(len(triangles), dtype=np.int32), rigged, marks)
-
-
-def signs(mesh: Mesh) -> EdgeSigns:
-    points, triangles = mesh
-    return EdgeSigns(points, triangles, np.arange(len(triangles), dtype=np.int32))
 
 
 def halved(quads: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -169,20 +157,6 @@ PLACED_MESHES = (ball, cylinder, rounded_cube, figure)
 SCANNED_MESHES = (isotropic, marching_cubes, range_scan, tilted_bar)
 
 
-@pytest.mark.parametrize("make", PLACED_MESHES)
-def test_what_artists_make_is_followed_when_it_is_triangulated(make: Callable[[], Mesh]) -> None:
-    mesh = make()
-    assert len(mesh[1]) > placed_edges._FEW
-    assert auto(mesh) == PLACED
-
-
-@pytest.mark.parametrize("make", SCANNED_MESHES)
-def test_edges_that_follow_nothing_are_cut(make: Callable[[], Mesh]) -> None:
-    mesh = make()
-    assert len(mesh[1]) > placed_edges._FEW
-    assert auto(mesh) == SCANNED
-
-
 def fan(range_of_sizes: float, bumpy: float = 1.0) -> Mesh:
     """Return rows of squares around a center, larger ones farther away. Only a part of them is bumpy."""
 
@@ -194,77 +168,46 @@ def fan(range_of_sizes: float, bumpy: float = 1.0) -> Mesh:
     return sheet(60, 60, place)
 
 
+@pytest.mark.parametrize("make", PLACED_MESHES)
+def test_what_artists_make_is_no_scan_when_it_is_triangulated(make: Callable[[], Mesh]) -> None:
+    assert not sw.has_scanned_edges(*make())
+
+
+@pytest.mark.parametrize("make", SCANNED_MESHES)
+def test_edges_that_follow_nothing_or_have_one_length_are_scanned(make: Callable[[], Mesh]) -> None:
+    assert sw.has_scanned_edges(*make())
+
+
 def test_edges_of_very_different_lengths_and_flat_faces_are_an_artists() -> None:
     """Game models of machines have dense triangles around details, and large flat sides."""
-    for mesh in (fan(2.5), fan(1.5), fan(1.5, bumpy=0.6)):
-        assert signs(mesh).follows < placed_edges._FOLLOWS
-    assert auto(fan(1.5)) == SCANNED
-    assert auto(fan(2.5)) == auto(fan(1.5, bumpy=0.6)) == PLACED
+    assert sw.has_scanned_edges(*fan(1.5))
+    assert not sw.has_scanned_edges(*fan(2.5))
+    assert not sw.has_scanned_edges(*fan(1.5, bumpy=0.6))
+    assert not sw.has_scanned_edges(*tilted_bar(length=2.5))
 
 
-def test_edges_of_one_length_are_not_placed_even_if_they_follow_the_bends() -> None:
-    assert signs(tilted_bar()).follows > placed_edges._FOLLOWS
-    assert auto(tilted_bar()) == SCANNED
-    assert auto(tilted_bar(length=2.5)) == PLACED
+def test_edges_around_a_tube_as_a_screw_do_not_follow_it() -> None:
+    assert sw.has_scanned_edges(*cylinder(twist=1.0))
 
 
-def test_edges_along_and_across_a_tube_follow_it_and_edges_around_it_as_a_screw_do_not() -> None:
-    assert signs(cylinder()).follows == pytest.approx(1.0)
-    assert signs(cylinder(twist=1.0)).follows == pytest.approx(-1.0, abs=0.01)
-    assert auto(cylinder(twist=1.0)) == SCANNED
-
-
-def test_in_a_plane_all_edges_follow_and_quads_are_regular_whatever_their_diagonals() -> None:
-    found = signs(sheet(50, 50, lambda down, right: (right, down, 0.0 * right)))
-    assert (found.follows, found.regular) == (1.0, 1.0)
-
-
-def test_a_mesh_has_the_same_signs_wherever_it_lies_and_however_its_triangles_are_stored() -> None:
-    points, triangles = figure()
+@pytest.mark.parametrize("make", [figure, marching_cubes, range_scan])
+def test_the_answer_does_not_depend_on_where_a_mesh_lies_and_how_its_triangles_are_stored(
+    make: Callable[[], Mesh],
+) -> None:
+    points, triangles = make()
     random = np.random.default_rng(4)
     rotation = np.linalg.qr(random.normal(size=(3, 3)))[0]
     stored = random.permutation(np.roll(triangles, 1, axis=1))
     stored[::2] = stored[::2, ::-1]
-    found, moved = signs((points, triangles)), signs((30.0 * points @ rotation + 5.0, stored))
-    assert moved.spread == pytest.approx(found.spread)
-    assert moved.regular == pytest.approx(found.regular)
-    # Where two triangles have opposite orientations, a ridge counts as a valley.
-    assert moved.follows == pytest.approx(found.follows, abs=0.1)
+    moved = sw.has_scanned_edges(30.0 * points @ rotation + 5.0, stored)
+    assert moved == sw.has_scanned_edges(points, triangles)
 
 
-def test_triangles_without_neighbors_and_without_area_are_no_scan() -> None:
-    apart = np.arange(9_000, dtype=np.int32).reshape(-1, 3)
-    assert auto((np.random.default_rng(5).normal(size=(9_000, 3)), apart)) == PLACED
-    assert auto((np.zeros((9_000, 3)), apart % 5_000)) == PLACED
-
-
-def test_large_meshes_are_judged_by_some_of_their_triangles() -> None:
-    points, triangles = sheet(400, 400, lambda down, right: (np.cos(right), np.sin(right), 2.0 * down))
-    polygons = np.arange(len(triangles), dtype=np.int32)
-    _, some, owners = placed_edges._sample(points, triangles, polygons)
-    assert len(some) == len(owners) == pytest.approx(placed_edges._MOST, rel=0.05)
-    assert signs((points, triangles)).follows == pytest.approx(1.0)
-    assert signs((points, triangles)).regular == 1.0
-
-
-def test_a_mesh_of_few_triangles_is_not_cut() -> None:
+def test_a_mesh_of_few_triangles_or_mostly_of_quads_is_an_artists() -> None:
     points, triangles = isotropic()
-    assert auto((points, triangles[: placed_edges._FEW - 1])) == PLACED
-    assert auto((points, triangles[: placed_edges._FEW])) == SCANNED
-
-
-def test_a_mesh_that_is_mostly_quads_is_not_cut() -> None:
-    points, triangles = isotropic()
+    assert sw.has_scanned_edges(points, triangles[:2000])
+    assert not sw.has_scanned_edges(points, triangles[:1999])
     half = len(triangles) // 2
-    polygons = np.concatenate([np.arange(half) // 2, half + np.arange(half)]).astype(np.int32)
-    assert auto_for(points, triangles, polygons) == SCANNED
-    assert auto_for(points, triangles[:half], polygons[:half]) == PLACED
-
-
-def test_a_rigged_mesh_is_not_cut() -> None:
-    assert auto(isotropic(), rigged=True) == PLACED
-
-
-def test_marks_decide_where_edges_leave_doubts_and_not_where_they_follow_nothing() -> None:
-    assert auto(tilted_bar(), marks=2) == PLACED
-    assert auto(marching_cubes(), marks=4) == SCANNED
+    polygons = np.concatenate([np.arange(half) // 2, half + np.arange(half)])
+    assert sw.has_scanned_edges(points, triangles, polygons)
+    assert not sw.has_scanned_edges(points, triangles[:half], polygons[:half])
