@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ..core.network.drawn import Drawn
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
+    from ..core.sketch.change import Change
     from ..terms.options import Auto
     from .settings import SeamwireSettings
 
@@ -224,6 +225,8 @@ class ObjectSession:
         self._renumbered = has_others and not self._has_same_numbers()
         known, self._labels = self._labels, self.cage.labels()
         self._outdated = True
+        if not self._labels.same_as(known) and not has_others:
+            self._found = Found() if self._newer else wire_labels.read(self._labels, self._archive, self.places)
         if obj.mode != "EDIT" or has_others:
             return False
         try:
@@ -307,12 +310,16 @@ class ObjectSession:
         if self._unstored and self.alive():
             self._store()
 
-    def plan(self) -> wire_labels.Plan:
-        """Return what the mesh's edges must be for the session's network. Raises ValueError if vertices have other numbers now."""
+    def plan(self, change: Change | None = None) -> wire_labels.Plan:
+        """Return what the mesh's edges must be for what is drawn. If others have changed the mesh, only a `change` is drawn on it.
+
+        Raises ValueError if vertices have other numbers now.
+        """
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
+        drawn = self.session.drawn
         return wire_labels.plan(
-            self.session.drawn,
+            drawn if change is None or not self._outdated else change.on(self._found.network),
             self._labels,
             self._found,
             self._archive,

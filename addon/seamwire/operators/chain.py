@@ -333,7 +333,7 @@ class Chain:
         if view is None or change is None or not (self._is_saved or change):
             self.drawn_on = None
             return
-        plan = view.mesh.plan()
+        plan = view.mesh.plan(change)
         try:
             view.mesh.write(plan, adopt=False)
         except ValueError:

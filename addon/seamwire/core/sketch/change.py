@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -33,8 +33,21 @@ class Change:
     @cached_property
     def changed(self) -> frozenset[int]:
         """The numbers of the wires that are new or have another course."""
+        return frozenset(wire.id for wire in self._new)
+
+    def on(self, found: Drawn) -> Drawn:
+        """Return other drawn wires with the ones that are new or changed here."""
+        gone = {wire.vertices for wire in self._gone}
+        wires = (*(wire for wire in found.wires if wire.vertices not in gone), *self._new)
+        strokes = {id(stroke) for stroke in self.before.strokes}
+        return replace(
+            found, wires=wires, strokes=(*found.strokes, *(one for one in self.after.strokes if id(one) not in strokes))
+        )
+
+    @cached_property
+    def _new(self) -> tuple[Wire, ...]:
         same = {id(wire) for wire in self.before.wires}
-        return frozenset(wire.id for wire in self.after.wires if id(wire) not in same)
+        return tuple(wire for wire in self.after.wires if id(wire) not in same)
 
     @cached_property
     def rerouted(self) -> int:
