@@ -284,13 +284,7 @@ PackTurns turns_from(const std::string& name) {
 void bind_pack_islands(py::module_& module) {
   py::class_<Packing, Held<Packing>>(module, "Packing", "Places of islands in the unit square.")
       .def_property_readonly(
-          "placements",
-          [](const py::object& self) {
-            const std::vector<Eigen::Matrix<double, 2, 3>>& all = self.cast<const Packing&>().placements;
-            constexpr py::ssize_t kSize = sizeof(double);  // Eigen stores columns
-            return view(all.empty() ? nullptr : all.front().data(), {static_cast<py::ssize_t>(all.size()), 2, 3},
-                        {6 * kSize, kSize, 2 * kSize}, self);
-          },
+          "placements", array_of<Packing>(&Packing::placements),
           "(k, 2, 3) float64: the map of each island to the square. A point (x, y) of the island lies at "
           "placement @ (x, y, 1). Zero for an island without triangles.")
       .def_readonly("scale", &Packing::scale,

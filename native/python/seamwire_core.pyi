@@ -2088,6 +2088,57 @@ def pack_islands(
     Cancelled
     """
 
+def place_islands(
+    before: ArrayLike,
+    after: ArrayLike,
+    triangles: ArrayLike,
+    islands: ArrayLike,
+    areas: ArrayLike,
+    *,
+    taken: ArrayLike = (),
+    aspects: ArrayLike | None = None,
+    straight: ArrayLike | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> NDArray[np.float64]:
+    """Find a place for new islands among parts of a UV map that stay.
+
+    Each island is turned as it was, and gets the nearest free place of its former unit square. Islands for which that
+    square has no room lie to the right of everything.
+
+    Parameters
+    ----------
+    before : (c, 2) array_like of float
+        Each corner's UV in the old map. An island with a UV that is not finite had no place.
+    after : (c, 2) array_like of float
+        Each corner's place now, of any scale, as the image shows it: u is multiplied by the aspect. Finite for the corners
+        of triangles.
+    triangles : (t, 3) array_like of int
+        Corners.
+    islands : (t,) array_like of int
+        The island of each triangle, numbered from 0.
+    areas : (k,) array_like of float
+        The wanted area of each island in the map. 0 keeps its scale.
+    taken : (b, 4) array_like of float, optional
+        Boxes around what stays: low u, low v, high u, high v.
+    aspects : (k,) array_like of float, optional
+        As in `pack_islands`.
+    straight : (k,) array_like of bool, optional
+        Whether an island's sides run along the axes, and stay so.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    (k, 2, 3) float64
+        The map of each island to its place, as `Packing.placements`.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a value is out of range or not finite.
+    Cancelled
+    """
+
 class PlannedWire:
     """One wire of a `SeamPlan`."""
 

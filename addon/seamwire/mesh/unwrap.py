@@ -15,7 +15,7 @@ import zlib
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import bmesh
 import bpy
@@ -27,16 +27,7 @@ from ..core.base.geometry import triangle_areas
 from ..core.islands.copies import ShapedIsland, shaped_islands
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
 from ..core.islands.straight_corners import find_straight
-from ..core.islands.uv_islands import (
-    NewIsland,
-    boxes_of,
-    flat_faces,
-    in_rows,
-    one_way_around,
-    place,
-    split_edges,
-    uv_areas,
-)
+from ..core.islands.uv_islands import boxes_of, flat_faces, one_way_around, split_edges, uv_areas
 from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -85,7 +76,16 @@ class Layout:
 
 
 Solved: TypeAlias = "tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]"
-"""The corners of flattened islands, ascending, their UVs in lengths on the model, and the island of each."""
+"""The corners of unwrapped islands, ascending, their places on the image that the UVs lie on, in any unit, and the island of each."""
+
+
+class _ToPlace(NamedTuple):
+    """Triangles of islands that need a place: copies and islands with pins need none."""
+
+    triangles: NDArray[np.int64]  # (t, 3) rows of the islands' corners
+    before: NDArray[np.float64]  # (c, 2) all corners in the old map
+    areas: NDArray[np.float64]  # (t,) the wanted areas in the map
+    straight: NDArray[np.bool_]  # (t,)
 
 
 class _Map:
@@ -254,10 +254,23 @@ class _Map:
         mapped = np.flatnonzero(labels >= 0)
         return mapped, uvs[mapped], labels[mapped]
 
-    def rows_of(self, corners: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the triangles of flattened islands that lie on no others, (t, 3), as rows of the flattened corners, ascending."""
-        once = np.setdiff1d(self.flat, self.stacked)
-        return np.searchsorted(corners, self._triangles[np.isin(self._labels, once)])
+    def unwrapped(self) -> Solved:
+        """Return the changed islands without pins, as they lie in the UV map that the mesh has."""
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, self.with_pins))
+        corners = np.unique(self._triangles[rows])
+        uvs = uv_map.read_uvs(self.obj)[corners] * (self.aspect, 1.0)
+        return corners, uvs, self._of_face[self.corners.faces[corners]].astype(np.int64)
+
+    def to_place(self, corners: NDArray[np.int64], density: float) -> _ToPlace:
+        """Return what there is to place of unwrapped islands. A texel density is for islands that had none."""
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)))
+        labels = self._labels[rows]
+        return _ToPlace(
+            np.searchsorted(corners, self._triangles[rows]),
+            self._before[corners],
+            self.densities(density)[labels] ** 2 * self._areas[rows],
+            self._are_straight[labels],
+        )
 
     def _present(self) -> NDArray[np.float64] | None:
         """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
@@ -303,23 +316,6 @@ class _Map:
         edges = np.where(self._seams[corners.edges], -1, corners.edges)
         labels = np.where(np.isin(labels, self.flat), labels, -1)
         return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
-
-    def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each unwrapped island that needs a place, and what it is now. A `density` is for those without one."""
-        densities = self.densities(density)
-        after = uv_map.read_uvs(self.obj)
-        islands = []
-        order = np.argsort(self._labels, kind="stable")
-        starts = np.searchsorted(self._labels[order], np.arange(self.count + 1))
-        for label in np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)).tolist():
-            rows = order[starts[label] : starts[label + 1]]
-            corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
-            triangles = triangles.reshape(-1, 3)
-            uvs = [each[corners].astype(np.float64) for each in (self._before, after)]
-            density, is_straight = float(densities[label]), bool(self._are_straight[label])
-            new = NewIsland(*uvs, triangles, self._areas[rows], density, self.aspect, is_straight)
-            islands.append((corners, new))
-        return islands
 
     def restore(self) -> None:
         """Give all corners the UVs that they had."""
@@ -404,7 +400,7 @@ def unwrap_changed(
     """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
 
     Where nothing stays, all flattened islands are packed. Else each new island gets the texel density it had, and a place near its old
-    one, see `core.uv_islands.place`; islands with pinned corners stay where Blender's unwrap puts them.
+    one, see ``seamwire_core.place_islands``; islands with pinned corners stay where Blender's unwrap puts them.
 
     Parameters
     ----------
@@ -483,38 +479,40 @@ def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method:
             raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
 
 
-def _lay_out(solved: Mapping[_Map, Solved], layout: Layout | None) -> None:
-    """Give flattened islands a place each in the UV square, all at one scale: packed as a layout says, or in rows without one."""
+def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
+    """Give unwrapped islands a place each: beside those that stay, or packed as a layout says where nothing stays."""
+    taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
+    if len(taken):  # where nothing stays, Blender has packed its islands
+        solved = {found: solved.get(found) or found.unwrapped() for found in maps if len(found.changed)}
     if not solved:
         return
-    offsets = np.cumsum([0, *(int(labels.max()) + 1 for _, _, labels in solved.values())])
-    labels = np.concatenate([own + offset for (_, _, own), offset in zip(solved.values(), offsets[:-1], strict=True)])
-    if layout is None:
-        placed = in_rows(np.concatenate([flat / (found.aspect, 1.0) for found, (_, flat, _) in solved.items()]), labels)
+    sums = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
+    if not (sums > 0.0).all():  # the islands may cover a quarter of the square
+        sums = np.array([0.25, max(sum(found.areas()[1].sum() for found in maps), 1e-300)])
+    density = float(np.sqrt(sums[0] / sums[1]))
+    starts = np.cumsum([0, *(len(corners) for corners, _, _ in solved.values())])
+    firsts = np.cumsum([0, *(int(labels.max(initial=-1)) + 1 for _, _, labels in solved.values())])
+    places = np.concatenate([own for _, own, _ in solved.values()])
+    labels = np.concatenate([own + first for (_, _, own), first in zip(solved.values(), firsts, strict=False)])
+    parts = [found.to_place(corners, density) for found, (corners, _, _) in solved.items()]
+    triangles = np.concatenate([own.triangles + start for own, start in zip(parts, starts, strict=False)])
+    numbers, rows, islands = np.unique(labels[triangles[:, 0]], return_index=True, return_inverse=True)
+    aspects = np.repeat([found.aspect for found in solved], [len(own.triangles) for own in parts])[rows]
+    placements = np.zeros((firsts[-1], 2, 3))
+    if len(taken):
+        _, before, areas, straight = (np.concatenate(each) for each in zip(*parts, strict=True))
+        areas = np.bincount(islands, areas, len(numbers))
+        placements[numbers] = native.load().place_islands(
+            before, places, triangles, islands, areas, taken=taken, aspects=aspects, straight=straight[rows]
+        )
     else:
-        placed = _packed(solved, labels, layout)
-    ends = np.cumsum([len(corners) for corners, _, _ in solved.values()])
-    for (found, (corners, _, _)), own in zip(solved.items(), np.split(placed, ends[:-1]), strict=True):
+        turns = "quarters" if layout.upright else "any"
+        packing = native.load().pack_islands(places[triangles], islands, margin=MARGIN, turns=turns, aspects=aspects)
+        placements[numbers] = packing.placements
+    placed = np.einsum("cij,cj->ci", placements[labels, :, :2], places) + placements[labels, :, 2]
+    for (found, (corners, _, _)), own in zip(solved.items(), np.split(placed, starts[1:-1]), strict=True):
         found.write(corners, own)
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
-
-
-def _packed(solved: Mapping[_Map, Solved], labels: NDArray[np.int64], layout: Layout) -> NDArray[np.float64]:
-    """Pack the islands of flattened corners, of which `labels`, (c,), are the islands, into the UV square. Copies count once."""
-    rows = [found.rows_of(corners) for found, (corners, _, _) in solved.items()]
-    offsets = np.cumsum([0, *(len(corners) for corners, _, _ in solved.values())])
-    triangles = np.concatenate([own + offset for own, offset in zip(rows, offsets[:-1], strict=True)])
-    flat = np.concatenate([uvs for _, uvs, _ in solved.values()])
-    aspects = np.ones(int(labels.max()) + 1)
-    aspects[labels] = np.repeat([found.aspect for found in solved], np.diff(offsets))
-    numbers, islands = np.unique(labels[triangles[:, 0]], return_inverse=True)
-    turns = "quarters" if layout.upright else "any"
-    packing = native.load().pack_islands(
-        flat[triangles], islands.reshape(-1), margin=MARGIN, turns=turns, aspects=aspects[numbers]
-    )
-    placements = np.zeros((len(aspects), 2, 3))
-    placements[numbers] = packing.placements
-    return np.einsum("cij,cj->ci", placements[labels, :, :2], flat) + placements[labels, :, 2]
 
 
 def _find_copies(maps: Sequence[_Map]) -> list[uv_map.Copy]:
@@ -536,19 +534,6 @@ def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
         if own:
             uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
             found.write(np.concatenate([copy.corners for copy in own]), uvs)
-
-
-def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
-    """Move new islands to where there is room among those that stay, or pack the flattened ones where nothing stays."""
-    taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
-    _lay_out(solved, None if len(taken) else layout)
-    if not len(taken):
-        return
-    in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
-    density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
-    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
-    for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken), strict=True):
-        found.write(corners, uvs)
 
 
 @contextmanager
