@@ -117,7 +117,7 @@ def test_faces_that_rounding_turns_over_are_turned_back(
     obj = add_capped_columns()
     edit()
     with monkeypatch.context() as without:
-        without.setattr(unwrapping, "turn_back", lambda *_: (np.empty(0, dtype=np.int64), np.empty((0, 2))))
+        without.setattr(unwrapping._Map, "turn_back", lambda _: False)
         assert unwrap(straight=False, upright=False) == {"FINISHED"}
     left = turned_over(obj)
     assert left > 0

@@ -1,16 +1,367 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "arrays.hpp"
+#include "detail/index.hpp"
+#include "held.hpp"
 #include "rooms.hpp"
+#include "seamwire/parameterization/changed_islands.hpp"
+#include "seamwire/parameterization/flatten_polygons.hpp"
+#include "seamwire/parameterization/island_copies.hpp"
+#include "seamwire/parameterization/map_faults.hpp"
 #include "seamwire/parameterization/place_islands.hpp"
+#include "seamwire/parameterization/unwrap_mesh.hpp"
+#include "seamwire/surface/island_hues.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
 namespace {
+
+/// Numbers of islands as flags of all of them.
+std::vector<std::uint8_t> chosen_from(const UnwrapMesh& mesh, py::handle value) {
+  std::vector<std::uint8_t> is_chosen(mesh.island_count(), 0);
+  for (const std::int32_t island : numbers_from(value, "islands")) {
+    detail::check_index(island, is_chosen.size(), "islands: number", "islands");
+    is_chosen[static_cast<std::size_t>(island)] = 1;
+  }
+  return is_chosen;
+}
+
+/// Shows flags as NumPy's booleans.
+py::object as_bools(std::vector<std::uint8_t> flags) { return handed_over(std::move(flags)).attr("view")("bool"); }
+
+Held<UnwrapMesh> unwrap_mesh(const py::object& points, const py::object& vertices, const py::object& edges,
+                             const py::object& sizes, const py::object& triangles, const py::object& islands,
+                             const py::object& seams) {
+  UnwrapArrays arrays{.points = points_from(points, "points"),
+                      .vertices = numbers_from(vertices, "vertices"),
+                      .edges = numbers_from(edges, "edges"),
+                      .sizes = numbers_from(sizes, "sizes"),
+                      .triangles = triangles_from(triangles, "triangles"),
+                      .islands = numbers_from(islands, "islands"),
+                      .seams = flags_from(seams, "seams")};
+  return without_gil([&] { return make_held<UnwrapMesh>(std::move(arrays)); });
+}
+
+py::tuple changes(const UnwrapMesh& mesh, const py::object& uvs, const py::object& memory) {
+  const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
+  std::vector<EdgeMemory> own_memory;
+  for (const std::int32_t code : numbers_from(memory, "memory")) {
+    detail::check_index(code, 4, "memory: code", "codes");
+    own_memory.push_back(static_cast<EdgeMemory>(code));
+  }
+  IslandChanges found =
+      Watch(py::none()).run([&](const Task& task) { return changed_islands(mesh, own_uvs, own_memory, task); });
+  return py::make_tuple(as_bools(std::move(found.changed)), handed_over(std::move(found.densities)));
+}
+
+py::tuple flattened_polygons(const UnwrapMesh& mesh, const py::object& islands, const py::object& start,
+                             std::optional<double> straighten, const py::object& up, const py::object& progress) {
+  const std::vector<std::uint8_t> is_chosen = chosen_from(mesh, islands);
+  const auto own_start = start.is_none() ? std::vector<Eigen::Vector2d>{} : places_from(start, "start");
+  const auto own_up = up.is_none() ? std::nullopt : std::optional(vector_from(up, "up"));
+  FlatPolygons flat = Watch(progress).run(
+      [&](const Task& task) { return flatten_polygons(mesh, is_chosen, own_start, straighten, own_up, task); });
+  return py::make_tuple(handed_over(std::move(flat.corners)), handed_over(std::move(flat.uvs)),
+                        handed_over(std::move(flat.islands)), as_bools(std::move(flat.straight)));
+}
+
+py::tuple corners_turned_back(const UnwrapMesh& mesh, const py::object& uvs, const py::object& islands) {
+  const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
+  const std::vector<std::uint8_t> is_chosen = chosen_from(mesh, islands);
+  std::vector<std::int32_t> corners;
+  std::vector<Eigen::Vector2d> places;
+  for (const auto& [corner, uv] : without_gil([&] { return turned_back(mesh, own_uvs, is_chosen); })) {
+    corners.push_back(corner);
+    places.push_back(uv.cast<double>());
+  }
+  return py::make_tuple(handed_over(std::move(corners)), handed_over(std::move(places)));
+}
+
+void bind_unwrap_mesh(py::module_& module) {
+  py::class_<UnwrapMesh, Held<UnwrapMesh>>(module, "UnwrapMesh",
+                                           R"(The polygons of a mesh with their islands, for UV maps.
+
+Corners are numbered polygon by polygon. UVs of all corners are (c, 2) array_like of float. Methods raise ValueError if
+an array has the wrong shape or type, or a number is out of range.
+
+A vertex in the middle of a straight side of two polygons may be in a triangle without area on both sides. Maps are made
+without it. Then it is put on the straight line between its neighbors.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    Finite coordinates.
+vertices : (c,) array_like of int
+    The vertex of each corner.
+edges : (c,) array_like of int
+    The edge from each corner to the next corner of its polygon.
+sizes : (p,) array_like of int
+    How many corners each polygon has.
+triangles : (t, 3) array_like of int
+    Corners: how polygons are drawn.
+islands : (p,) array_like of int
+    The island of each polygon, from 0, or -1 if it is hidden.
+seams : (e,) array_like of bool
+    Whether each edge is a seam.
+
+Raises
+------
+ValueError
+    If arrays do not fit together.
+)")
+      .def(py::init(&unwrap_mesh), py::arg("points"), py::arg("vertices"), py::arg("edges"), py::arg("sizes"),
+           py::arg("triangles"), py::arg("islands"), py::arg("seams"))
+      .def("changes", &changes, py::arg("uvs"), py::arg("memory"),
+           R"(Find the islands that no longer are what the seams say.
+
+The map is torn at an edge without a seam of such an island, is whole at a seam, or has no area. Or it has a polygon
+without area, a part that is folded over, or a new island that overlaps.
+
+Parameters
+----------
+uvs : (c, 2) array_like of float
+    The map.
+memory : (e,) array_like of int
+    What each edge was when it was unwrapped last: 0 not known, 1 no seam, 2 a seam. 3: its polygons were joined later,
+    so that the map may be torn inside them. An edge that still is what it was does not count.
+
+Returns
+-------
+changed : (k,) bool
+    Whether each island has changed.
+densities : (k,) float64
+    Lengths in the map over lengths on the model, the same for islands that are one in the map. 0 if it is not known.
+)")
+      .def("flatten", &flattened_polygons, py::arg("islands"), py::kw_only(), py::arg("start") = py::none(),
+           py::arg("straighten") = py::none(), py::arg("up") = py::none(), py::arg("progress") = py::none(),
+           R"(Map some islands to the plane, as `flatten` does.
+
+Parameters
+----------
+islands : (j,) array_like of int
+    Their numbers.
+start : (c, 2) array_like of float, optional
+    A former map, of any scale. It is not used if it has places that are not finite.
+straighten, up, progress
+    As for the function `flatten`.
+
+Returns
+-------
+corners : (i,) int32
+    The corners of these islands, ascending.
+uvs : (i, 2) float64
+    Their places, in the points' unit of length.
+parts : (i,) int32
+    Which of them hang together in the map. Parts may lie on each other.
+straight : (k,) bool
+    Whether each island of the mesh was laid out straight.
+)")
+      .def(
+          "proper_triangles",
+          [](const UnwrapMesh& mesh, const py::object& uvs) {
+            const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
+            return handed_over(without_gil([&] { return proper_triangles(mesh, own_uvs); }));
+          },
+          py::arg("uvs"),
+          R"(Find the visible triangles that a map must have the right way around.
+
+They are all but those that lie on a straight line in the map and on the model.
+
+Parameters
+----------
+uvs : (c, 2) array_like of float
+    The map.
+
+Returns
+-------
+(j,) int32
+    Their numbers.
+)")
+      .def("turn_back", &corners_turned_back, py::arg("uvs"), py::arg("islands"),
+           R"(Turn back triangles of some islands that rounding to single precision has turned over.
+
+Parameters
+----------
+uvs : (c, 2) array_like of float
+    The map, in single precision.
+islands : (j,) array_like of int
+    The numbers of the islands.
+
+Returns
+-------
+corners : (j,) int32
+    The corners that move.
+uvs : (j, 2) float64
+    Their new UVs.
+)")
+      .def(
+          "count_unmapped",
+          [](const UnwrapMesh& mesh, const py::object& uvs) {
+            const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
+            return without_gil([&] { return unmapped_polygons(mesh, own_uvs); });
+          },
+          py::arg("uvs"),
+          R"(Count the hidden polygons that have an area on the model, but none in the map.
+
+Parameters
+----------
+uvs : (c, 2) array_like of float
+    The map.
+
+Returns
+-------
+int
+)");
+}
+
+void bind_island_copies(py::module_& module) {
+  module.def(
+      "island_copies",
+      [](const py::object& islands) {
+        std::vector<ChosenIslands> chosen;
+        for (const py::object item : sequence_from(islands, "islands", "pairs of an UnwrapMesh and numbers")) {
+          const py::sequence pair = sequence_from(item, "islands", "pairs of an UnwrapMesh and numbers");
+          if (py::len(pair) != 2 || !py::isinstance<UnwrapMesh>(pair[0])) {
+            throw InvalidInput("islands: expected a sequence of pairs of an UnwrapMesh and numbers");
+          }
+          const auto& mesh = pair[0].cast<const UnwrapMesh&>();
+          chosen.push_back({&mesh, chosen_from(mesh, pair[1])});
+        }
+        py::list found;
+        for (IslandCopy& copy : without_gil([&] { return find_island_copies(chosen); })) {
+          found.append(py::make_tuple(copy.mesh, copy.island, handed_over(std::move(copy.corners)), copy.first_mesh,
+                                      handed_over(std::move(copy.below))));
+        }
+        return found;
+      },
+      py::arg("islands"),
+      R"(Find the islands that are copies of earlier ones: the same polygons with the same lengths, mirrored or not.
+
+Parameters
+----------
+islands : sequence of (UnwrapMesh, (j,) array_like of int)
+    Meshes with the numbers of islands.
+
+Returns
+-------
+list of (int, int, (c,) int32, int, (c,) int32)
+    For each copy: the place of its mesh in the sequence, its island, its corners, the place of the mesh of the first
+    island of this shape, and the corners there that correspond.
+
+Raises
+------
+ValueError
+    If an item is no such pair, or an island is out of range.
+)");
+}
+
+void bind_map_faults(py::module_& module) {
+  module.def(
+      "map_faults",
+      [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands,
+         const py::object& polygons, const py::object& edges, const py::object& chosen, const py::object& homes,
+         bool may_stack, const py::object& progress) {
+        const MappedTriangles map{.points = points_from(points, "points"),
+                                  .triangles = triangles_from(triangles, "triangles"),
+                                  .polygons = numbers_from(polygons, "polygons"),
+                                  .islands = numbers_from(islands, "islands"),
+                                  .uvs = corner_uvs_from(uvs, "uvs"),
+                                  .edges = edges_from(edges, "edges")};
+        FaultOptions options{.may_stack = may_stack};
+        if (!chosen.is_none()) options.chosen = flags_from(chosen, "chosen");
+        if (!homes.is_none()) options.homes = places_from(homes, "homes");
+        const MapFaults faults = Watch(progress).run([&](const Task& task) { return map_faults(map, options, task); });
+        return py::make_tuple(faults.flipped, faults.overlapping, faults.outside);
+      },
+      py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands"), py::kw_only(), py::arg("polygons"),
+      py::arg("edges"), py::arg("chosen") = py::none(), py::arg("homes") = py::none(), py::arg("may_stack") = false,
+      py::arg("progress") = py::none(),
+      R"(Count what is wrong with islands in a UV map.
+
+Parameters
+----------
+points, triangles, uvs, islands, edges, progress
+    As for the function `measure_map`. All that lies in the map. A UV may be not finite.
+polygons : (m,) array_like of int
+    The polygon that each triangle is part of.
+chosen : (k,) array_like of bool, optional
+    The islands whose faults count. The others are what these may overlap. None: all.
+homes : (k, 2) array_like of float, optional
+    The low corner of the unit square where each island may lie, besides the UV square.
+may_stack : bool
+    Whether islands may lie exactly on each other.
+
+Returns
+-------
+flipped : int
+    Polygons that are turned over against their island, or have no area or no place in the map.
+overlapping : int
+    Islands that cover a part of themselves or of another island.
+outside : int
+    Islands that lie neither in the UV square nor in their home.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, or a number is out of range.
+Cancelled
+)");
+}
+
+void bind_island_hues(py::module_& module) {
+  module.def(
+      "island_hues",
+      [](const py::object& triangles, const py::object& islands, const py::object& cuts,
+         const py::object& former_islands, const py::object& former_hues) {
+        const std::vector<Triangle> own_triangles = triangles_from(triangles, "triangles");
+        const std::vector<std::int32_t> own_islands = numbers_from(islands, "islands");
+        const std::vector<Edge> own_cuts = edges_from(cuts, "cuts");
+        FormerIslands former{.islands = numbers_from(former_islands, "former_islands")};
+        for (const std::int32_t hue : numbers_from(former_hues, "former_hues")) {
+          detail::check_index(hue, kHues, "former_hues: hue", "hues");
+          former.hues.push_back(static_cast<std::uint8_t>(hue));
+        }
+        return handed_over(without_gil([&] { return island_hues(own_triangles, own_islands, own_cuts, former); }));
+      },
+      py::arg("triangles"), py::arg("islands"), py::arg("cuts"), py::arg("former_islands") = py::tuple(),
+      py::arg("former_hues") = py::tuple(),
+      R"(Choose a hue for each island, far in the rainbow from those of its neighbors.
+
+Hue h is the color at (4 + 5 h) mod 12 twelfths of the rainbow. Neighbors meet at a cut edge. Their hues are 3 twelfths
+apart where possible. If there are more than 4096 islands, neighbors may have equal hues.
+
+Parameters
+----------
+triangles : (m, 3) array_like of int
+    Vertex numbers.
+islands : (m,) array_like of int
+    The island of each triangle, from 0. The largest island comes first.
+cuts : (k, 2) array_like of int
+    Vertex pairs.
+former_islands : (m,) array_like of int, optional
+    The islands that there were before. An island keeps the hue of the one to which most of it belonged, unless a larger
+    neighbor has one that is too near.
+former_hues : (j,) array_like of int, optional
+    Their hues.
+
+Returns
+-------
+(count,) uint8
+    The hue of each island, from 0 to 11.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, or a number is out of range.
+)");
+}
 
 void bind_place_islands(py::module_& module) {
   module.def(
@@ -26,8 +377,7 @@ void bind_place_islands(py::module_& module) {
         if (!aspects.is_none()) own.aspects = values_from(aspects, "aspects");
         if (!straight.is_none()) own.straight = flags_from(straight, "straight");
         const std::vector<Eigen::AlignedBox2d> boxes = boxes_from(taken, "taken");
-        return handed_over(
-            Watch(progress).run([&](const Task& task) { return place_islands(own, boxes, task); }));
+        return handed_over(Watch(progress).run([&](const Task& task) { return place_islands(own, boxes, task); }));
       },
       py::arg("before"), py::arg("after"), py::arg("triangles"), py::arg("islands"), py::arg("areas"), py::kw_only(),
       py::arg("taken") = py::tuple(), py::arg("aspects") = py::none(), py::arg("straight") = py::none(),
@@ -74,6 +424,12 @@ Cancelled
 
 }  // namespace
 
-void bind_islands(py::module_& module) { bind_place_islands(module); }
+void bind_islands(py::module_& module) {
+  bind_unwrap_mesh(module);
+  bind_island_copies(module);
+  bind_map_faults(module);
+  bind_island_hues(module);
+  bind_place_islands(module);
+}
 
 }  // namespace seamwire::python

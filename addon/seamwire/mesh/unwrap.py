@@ -22,12 +22,9 @@ import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.base.components import components
 from ..core.base.geometry import triangle_areas
-from ..core.islands.copies import ShapedIsland, shaped_islands
-from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
-from ..core.islands.straight_corners import find_straight
-from ..core.islands.uv_islands import boxes_of, flat_faces, one_way_around, split_edges, uv_areas
+from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
+from ..core.islands.uv_islands import boxes_of, uv_areas
 from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -45,10 +42,6 @@ STRAIGHT_COST = 0.05
 """How much a straight layout may add to an island's symmetric Dirichlet energy."""
 UP = (0.0, 0.0, 1.0)
 """The direction of the object that points up in the map."""
-_FOLDED = 0.25
-"""The part of an island's faces that must be turned over for the island to count as folded."""
-_ON_LINE = 1e-6
-"""How far a UV may lie beside a line that it should lie on: UVs are rounded."""
 MARGIN = 1.0 / 256.0
 """Between packed islands, as a share of the UV square's side."""
 
@@ -107,17 +100,16 @@ class _Map:
             self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else none
         labels = labels_of(arrays)
         self.count = int(labels.max(initial=-1)) + 1
-        self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int32)
+        self._of_face = np.full(len(self.corners.sizes), -1, dtype=np.int32)
         self._of_face[arrays.polygons] = labels
         # The map is made and measured for the triangles that Blender draws.
         drawn = self._drawn()
         labels = self._of_face[self.corners.faces[drawn[:, 0]]]
-        self._triangles = drawn[labels >= 0]
-        self._hidden = drawn[labels < 0]
-        self._labels = labels[labels >= 0]
+        self._triangles, self._labels = drawn[labels >= 0], labels[labels >= 0]
+        triangles = np.concatenate([self._triangles, drawn[labels < 0]])
+        columns = (self.corners.vertices, self.corners.edges, self.corners.sizes, triangles, self._of_face, self._seams)
+        self.mesh = native.load().UnwrapMesh(arrays.in_object, *columns)
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
-        is_seam = self._seams[self.corners.edges]
-        self._straight = find_straight(arrays.in_object, self.corners, is_seam, self._triangles)
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         self.with_pins = np.intersect1d(self.changed, self._labels[pinned[self._triangles].any(axis=1)])
@@ -142,62 +134,13 @@ class _Map:
         return self.corners.of_triangles(replace(self._arrays, triangles=table[:, 1:], polygons=table[:, 0]))
 
     def _find_changed(self) -> NDArray[np.bool_]:
-        self._families = np.arange(self.count)
-        corners, seams, known, uvs = self.corners, self._seams, self._known, self._before
-        visible = self._of_face[corners.faces] >= 0
-        pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, uvs)
-        edges = corners.edges[pairs[:, 0]]
-        self._between = np.zeros(len(seams), dtype=bool)
-        self._between[edges] = True
+        self._densities = np.zeros(self.count)
         if self._uvs is None:
             return np.ones(self.count, dtype=bool)
-        islands = self._of_face[corners.faces[pairs]]
-        self._families = components(self.count, islands[~torn])
-        odd = (torn != seams[edges]) & (known[edges] != self._signs(seams[edges]))
-        odd |= known[edges] == JOINED
-        areas = uv_areas(uvs[self._triangles])
-        changed = np.bincount(self._labels, areas, self.count) <= 0.0
-        # An island without area on the model cannot have one in the map.
-        changed &= np.bincount(self._labels, self._areas, self.count) > 0.0
-        changed[islands[odd]] = True
         plain, seam = self._signs(np.array([False, True]))
-        is_known = (known[edges] == plain) | (known[edges] == seam)
-        changed |= self._with_bad_faces(pairs[~torn & ~seams[edges]], islands[is_known])
-        if is_known.any():
-            changed |= self._overlapping(np.unique(islands[~is_known]))
+        memory = np.select([self._known == plain, self._known == seam, self._known == JOINED], [1, 2, 3])
+        changed, self._densities = self.mesh.changes(self._uvs, memory)
         return changed
-
-    def _with_bad_faces(self, joints: NDArray[np.int64], known: NDArray[np.int32]) -> NDArray[np.bool_]:
-        """Return which islands, (count,), have faces that no map of them would have: without area, or turned over.
-
-        New faces have the UVs of their neighbors' corners, or none. `joints`, (k, 2), are corners at which two faces hold an edge that is
-        whole in the map. A map folded in two is intended, unless the island is one of the `known` ones, which Seamwire has unwrapped.
-        """
-        flat, turns = flat_faces(self._arrays.in_object, self.corners, self._triangles, self._before)
-        turns *= one_way_around(self.corners, joints)
-        bad = np.zeros(self.count, dtype=bool)
-        bad[self._of_face[flat & (self._of_face >= 0)]] = True
-        shown = np.flatnonzero((self._of_face >= 0) & (turns != 0))
-        labels = self._of_face[shown]
-        clockwise, sizes = (np.bincount(labels, each, self.count) for each in (turns[shown] < 0, turns[shown] != 0))
-        folded, is_known = (np.zeros(self.count, dtype=bool) for _ in range(2))
-        folded[self._of_face[self.corners.faces[joints[turns[self.corners.faces[joints]].prod(axis=1) < 0, 0]]]] = True
-        is_known[known] = True
-        few = np.minimum(clockwise, sizes - clockwise) < _FOLDED * sizes
-        return bad | (folded & (is_known | few))
-
-    def _overlapping(self, fresh: NDArray[np.int32]) -> NDArray[np.bool_]:
-        """Return which of some islands, (count,), overlap themselves or others."""
-        bad = np.zeros(self.count, dtype=bool)
-        if len(fresh):
-            surface = self.mapped()
-            sides = np.linalg.norm(surface.uvs - np.roll(surface.uvs, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-            # Triangles that lie on a line cover nothing.
-            rows, report = surface.measured(2.0 * uv_areas(surface.uvs.astype(np.float64)) > _ON_LINE * sides**2)
-            if report is not None:
-                islands = np.unique(surface.labels[rows])[np.union1d(report.overlapping, report.colliding)]
-                bad[np.intersect1d(islands, fresh)] = True
-        return bad
 
     def _signs(self, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Return what the layer holds of edges that are seams, or are not."""
@@ -211,48 +154,20 @@ class _Map:
     def flattened(self, start: NDArray[np.float64] | None, layout: Layout) -> Solved:
         """Flatten `flat`: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
 
-        `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. Returns the
-        corners of the islands, ascending, their UVs in lengths on the model, and the number of the island of each. An island has several
-        numbers where the seams do not part what is no surface.
+        `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. An island has
+        several numbers where the seams do not part what is no surface.
         """
-        drawn = self._triangles[np.isin(self._labels, self.flat)]
-        corners = self._straight.to_map(self._arrays.in_object, self.corners, drawn)
-        vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
-        number = np.full(len(self._arrays.points), -1, dtype=np.int32)
-        number[vertices] = np.arange(len(vertices))
-
-        def own(edges: NDArray[np.int32]) -> NDArray[np.int32]:
-            ends = number[edges]
-            return ends[(ends >= 0).all(axis=1)]
-
-        places = self._present()
+        places = None if self._uvs is None else self._before * (self.aspect, 1.0)
         if start is not None:
             places = np.zeros((len(self.corners.vertices), 2))
             places[self.corners.of_triangles(self._arrays)] = start
-        flat = native.load().flatten(
-            self._arrays.in_object[vertices],
-            triangles.reshape(-1, 3).astype(np.int32),
-            own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
-            start=None if places is None else places[corners],
-            edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
+        corners, uvs, parts, self._are_straight = self.mesh.flatten(
+            self.flat,
+            start=places,
             straighten=layout.straight_cost if layout.straight else None,
             up=UP if layout.upright else None,
         )
-        self._are_straight[self.flat] = True
-        bent = ~np.isin(np.asarray(flat.islands), flat.straight)
-        self._are_straight[self._of_face[self.corners.faces[corners[bent, 0]]]] = False
-        # A corner of several triangles is where the largest has it: one without area may be anywhere.
-        smallest_first = np.argsort(
-            triangle_areas(self._arrays.in_object, self.corners.vertices[corners]), kind="stable"
-        )
-        uvs = np.zeros((len(self.corners.vertices), 2))
-        uvs[corners[smallest_first]] = np.asarray(flat.uvs)[smallest_first]
-        labels = np.full(len(uvs), -1, dtype=np.int64)
-        labels[corners[smallest_first]] = np.repeat(np.asarray(flat.islands)[smallest_first], 3).reshape(-1, 3)
-        self._straight.place(uvs)
-        labels[self._straight.corners] = labels[self._straight.onto]
-        mapped = np.flatnonzero(labels >= 0)
-        return mapped, uvs[mapped], labels[mapped]
+        return corners, uvs, parts
 
     def unwrapped(self) -> Solved:
         """Return the changed islands without pins, as they lie in the UV map that the mesh has."""
@@ -268,20 +183,9 @@ class _Map:
         return _ToPlace(
             np.searchsorted(corners, self._triangles[rows]),
             self._before[corners],
-            self.densities(density)[labels] ** 2 * self._areas[rows],
+            np.where(self._densities > 0.0, self._densities, density)[labels] ** 2 * self._areas[rows],
             self._are_straight[labels],
         )
-
-    def _present(self) -> NDArray[np.float64] | None:
-        """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
-        if self._uvs is None:
-            return None
-        uvs = self._uvs.astype(np.float64) * (self.aspect, 1.0)
-        areas = uv_areas(uvs[self._triangles])
-        in_map, on_model = (np.bincount(self._labels, each, self.count) for each in (areas, self._areas))
-        scale = np.sqrt(np.divide(on_model, in_map, out=np.ones(self.count), where=(in_map > 0.0) & (on_model > 0.0)))
-        uvs *= scale[self._of_face[self.corners.faces]][:, None]
-        return uvs if np.isfinite(uvs[self._triangles]).all() else None
 
     def staying(self) -> NDArray[np.float64]:
         """Return the bounds of the triangles that stay in the map, (b, 4); of hidden faces their own."""
@@ -304,19 +208,6 @@ class _Map:
         in_map = uv_areas(self._before[self._triangles])
         return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
 
-    def densities(self, fallback: float) -> NDArray[np.float64]:
-        """Return the texel density of each island, (count,): what was one island in the map has one still."""
-        sums = np.stack([np.bincount(self._families, areas, self.count) for areas in self.areas()])[:, self._families]
-        known = (sums > 0.0).all(axis=0)
-        return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
-
-    def shapes(self) -> list[ShapedIsland]:
-        """Return the shapes of the islands that were flattened."""
-        corners, labels = self.corners, self._of_face[self.corners.faces]
-        edges = np.where(self._seams[corners.edges], -1, corners.edges)
-        labels = np.where(np.isin(labels, self.flat), labels, -1)
-        return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
-
     def restore(self) -> None:
         """Give all corners the UVs that they had."""
         if self._uvs is not None:
@@ -338,27 +229,17 @@ class _Map:
 
     def mapped(self) -> MappedSurface:
         """Return the visible faces with the UVs that the mesh has."""
-        arrays = self._arrays
         uvs = uv_map.read_uvs(self.obj)
-        rows = self._with_area(uvs)
+        rows = self.mesh.proper_triangles(uvs)
         corners = self._triangles[rows]
         polygons = self.corners.faces[corners[:, 0]].astype(np.int32)
         triangles = self.corners.vertices[corners]
+        arrays = self._arrays
         return MappedSurface(arrays.in_object, triangles, polygons, self._labels[rows], uvs[corners], arrays.edges)
-
-    def _with_area(self, uvs: NDArray[np.float32]) -> NDArray[np.int64]:
-        """Return the triangles without those that lie on a straight line in the map and on the model."""
-        vanish = np.flatnonzero(self._straight.vanish(self._triangles))
-        places = uvs[self._triangles[vanish]].astype(np.float64)
-        longest = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-        return np.delete(np.arange(len(self._labels)), vanish[2.0 * uv_areas(places) <= _ON_LINE * longest])
 
     def unmapped(self) -> int:
         """Return how many hidden faces have no area in the UV map that the mesh has."""
-        if not len(self._hidden):
-            return 0
-        uvs = uv_map.read_uvs(self.obj).astype(np.float64)
-        return int(flat_faces(self._arrays.in_object, self.corners, self._hidden, uvs)[0].sum())
+        return self.mesh.count_unmapped(uv_map.read_uvs(self.obj)) if (self._of_face < 0).any() else 0
 
     def homes(self) -> NDArray[np.float64]:
         """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
@@ -369,10 +250,7 @@ class _Map:
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
-        uvs = uv_map.read_uvs(self.obj)
-        rows = self._with_area(uvs)
-        rows = rows[np.isin(self._labels[rows], np.setdiff1d(self.changed, self.with_pins))]
-        corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
+        corners, places = self.mesh.turn_back(uv_map.read_uvs(self.obj), np.setdiff1d(self.changed, self.with_pins))
         self.write(corners, places)
         return len(corners) > 0
 
@@ -382,11 +260,22 @@ class _Map:
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
         plain, seam = self._signs(np.array([False, True])).tolist()
         # New faces may meet at edges that have one face so far.
-        between = self._between.tolist()
+        visible = self.corners.edges[self._of_face[self.corners.faces] >= 0]
+        between = (np.bincount(visible, minlength=len(self._seams)) == 2).tolist()
         for edge in bm.edges:
             if not edge.hide:
                 edge[layer] = (seam if edge.seam else plain) if between[edge.index] else 0
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
+
+
+class _Copy(NamedTuple):
+    """An island that lies on another one: its map, number and corners, and the other map and the corners below."""
+
+    found: _Map
+    label: int
+    corners: NDArray[np.int32]
+    other: _Map
+    below: NDArray[np.int32]
 
 
 def unwrap_changed(
@@ -515,22 +404,23 @@ def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) 
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
-def _find_copies(maps: Sequence[_Map]) -> list[uv_map.Copy]:
+def _find_copies(maps: Sequence[_Map]) -> list[_Copy]:
     """Find the islands that lie on others, for each width of the image that the UVs lie on."""
     copies = []
     for aspect in dict.fromkeys(found.aspect for found in maps):
         own = [found for found in maps if found.aspect == aspect]
-        copies += uv_map.copies_among([(found.obj, shape) for found in own for shape in found.shapes()])
+        for mesh, label, corners, other, below in native.load().island_copies([(each.mesh, each.flat) for each in own]):
+            copies.append(_Copy(own[mesh], label, corners, own[other], below))
     for found in maps:
-        found.stacked = np.array([copy.label for copy in copies if copy.obj == found.obj], dtype=np.int64)
+        found.stacked = np.array([copy.label for copy in copies if copy.found is found], dtype=np.int64)
     return copies
 
 
-def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
+def _pile_up(maps: Sequence[_Map], copies: Sequence[_Copy]) -> None:
     """Lay copies on the islands that have a place."""
-    present = {obj: uv_map.read_uvs(obj) for obj in dict.fromkeys(copy.other for copy in copies)}
+    present = {other: uv_map.read_uvs(other.obj) for other in dict.fromkeys(copy.other for copy in copies)}
     for found in maps:
-        own = [copy for copy in copies if copy.obj == found.obj]
+        own = [copy for copy in copies if copy.found is found]
         if own:
             uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
             found.write(np.concatenate([copy.corners for copy in own]), uvs)
