@@ -197,7 +197,7 @@ def test_an_island_outside_the_uv_square_is_told(capfd: pytest.CaptureFixture[st
 
 
 @pytest.mark.parametrize("with_map", [False, True])
-@pytest.mark.parametrize("where", ["_place", "find_faults", "_pile_up"])
+@pytest.mark.parametrize("where", ["_place", "_faults", "_pile_up"])
 def test_any_error_leaves_all_uvs_as_they_were(where: str, with_map: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(5)
     for vertex in obj.data.vertices:

@@ -14,9 +14,9 @@
 #include "detail/poll.hpp"
 #include "held.hpp"
 #include "names.hpp"
+#include "parameterization/with_repeats.hpp"
 #include "rooms.hpp"
 #include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parameterization/map_faults.hpp"
 #include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/parameterization/pack.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -185,8 +185,8 @@ auto measured(const py::object& points, const py::object& triangles, const py::o
   const auto numbers = islands.is_none() ? std::vector<std::int32_t>{} : numbers_from(islands, "islands");
   auto own_edges = real_edges_from(edges);
   return Watch(progress).run([&](const Task& task) {
-    const Surface surface = surface_with_repeats(std::move(own_points), std::move(own_triangles), std::move(own_edges),
-                                                 detail::part_of(task, 0.0, 0.2));
+    const Surface surface = detail::surface_with_repeats(std::move(own_points), std::move(own_triangles),
+                                                         std::move(own_edges), detail::part_of(task, 0.0, 0.2));
     return measure(surface, own_uvs, numbers, detail::part_of(task, 0.2, 1.0));
   });
 }

@@ -11,10 +11,7 @@
 #include "detail/index.hpp"
 #include "held.hpp"
 #include "rooms.hpp"
-#include "seamwire/parameterization/changed_islands.hpp"
-#include "seamwire/parameterization/flatten_polygons.hpp"
-#include "seamwire/parameterization/island_copies.hpp"
-#include "seamwire/parameterization/map_faults.hpp"
+#include "seamwire/parameterization/map_stretch.hpp"
 #include "seamwire/parameterization/place_islands.hpp"
 #include "seamwire/parameterization/unwrap_mesh.hpp"
 #include "seamwire/surface/island_hues.hpp"
@@ -25,7 +22,7 @@ namespace {
 
 /// Numbers of islands as flags of all of them.
 std::vector<std::uint8_t> chosen_from(const UnwrapMesh& mesh, py::handle value) {
-  std::vector<std::uint8_t> is_chosen(mesh.island_count(), 0);
+  std::vector<std::uint8_t> is_chosen(mesh.island_count, 0);
   for (const std::int32_t island : numbers_from(value, "islands")) {
     detail::check_index(island, is_chosen.size(), "islands: number", "islands");
     is_chosen[static_cast<std::size_t>(island)] = 1;
@@ -61,27 +58,45 @@ py::tuple changes(const UnwrapMesh& mesh, const py::object& uvs, const py::objec
   return py::make_tuple(as_bools(std::move(found.changed)), handed_over(std::move(found.densities)));
 }
 
-py::tuple flattened_polygons(const UnwrapMesh& mesh, const py::object& islands, const py::object& start,
-                             std::optional<double> straighten, const py::object& up, const py::object& progress) {
+py::tuple flattened_islands(const UnwrapMesh& mesh, const py::object& islands, const py::object& start,
+                            std::optional<double> straighten, const py::object& up, const py::object& progress) {
   const std::vector<std::uint8_t> is_chosen = chosen_from(mesh, islands);
-  const auto own_start = start.is_none() ? std::vector<Eigen::Vector2d>{} : places_from(start, "start");
-  const auto own_up = up.is_none() ? std::nullopt : std::optional(vector_from(up, "up"));
-  FlatPolygons flat = Watch(progress).run(
-      [&](const Task& task) { return flatten_polygons(mesh, is_chosen, own_start, straighten, own_up, task); });
+  FlattenIslandsOptions options{.straighten = straighten};
+  if (!start.is_none()) options.start = places_from(start, "start");
+  if (!up.is_none()) options.up = vector_from(up, "up");
+  FlatIslands flat =
+      Watch(progress).run([&](const Task& task) { return flatten_islands(mesh, is_chosen, options, task); });
   return py::make_tuple(handed_over(std::move(flat.corners)), handed_over(std::move(flat.uvs)),
-                        handed_over(std::move(flat.islands)), as_bools(std::move(flat.straight)));
+                        handed_over(std::move(flat.parts)), as_bools(std::move(flat.straight)));
 }
 
 py::tuple corners_turned_back(const UnwrapMesh& mesh, const py::object& uvs, const py::object& islands) {
-  const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
-  const std::vector<std::uint8_t> is_chosen = chosen_from(mesh, islands);
+  const MappedMesh map{.mesh = &mesh, .is_chosen = chosen_from(mesh, islands), .uvs = places_from(uvs, "uvs")};
   std::vector<std::int32_t> corners;
   std::vector<Eigen::Vector2d> places;
-  for (const auto& [corner, uv] : without_gil([&] { return turned_back(mesh, own_uvs, is_chosen); })) {
+  for (const auto& [corner, uv] : without_gil([&] { return turned_back(map); })) {
     corners.push_back(corner);
-    places.push_back(uv.cast<double>());
+    places.push_back(uv);
   }
   return py::make_tuple(handed_over(std::move(corners)), handed_over(std::move(places)));
+}
+
+/// Tuples of a mesh, numbers of islands, and as the case may be a map and a former map or None.
+std::vector<MappedMesh> mapped_meshes_from(const py::object& value, const std::string& name, std::size_t size) {
+  const char* const of = size == 2 ? "(UnwrapMesh, islands)" : "(UnwrapMesh, islands, uvs, before)";
+  std::vector<MappedMesh> maps;
+  for (const py::object item : sequence_from(value, name, of)) {
+    const py::sequence own = sequence_from(item, name, of);
+    if (py::len(own) != size || !py::isinstance<UnwrapMesh>(own[0])) {
+      throw InvalidInput(name + ": expected a sequence of " + of);
+    }
+    const auto& mesh = own[0].cast<const UnwrapMesh&>();
+    maps.push_back({.mesh = &mesh, .is_chosen = chosen_from(mesh, own[1])});
+    if (size == 2) continue;
+    maps.back().uvs = places_from(own[2], "uvs");
+    if (!own[3].is_none()) maps.back().before = places_from(own[3], "before");
+  }
+  return maps;
 }
 
 void bind_unwrap_mesh(py::module_& module) {
@@ -139,7 +154,7 @@ changed : (k,) bool
 densities : (k,) float64
     Lengths in the map over lengths on the model, the same for islands that are one in the map. 0 if it is not known.
 )")
-      .def("flatten", &flattened_polygons, py::arg("islands"), py::kw_only(), py::arg("start") = py::none(),
+      .def("flatten", &flattened_islands, py::arg("islands"), py::kw_only(), py::arg("start") = py::none(),
            py::arg("straighten") = py::none(), py::arg("up") = py::none(), py::arg("progress") = py::none(),
            R"(Map some islands to the plane, as `flatten` does.
 
@@ -163,27 +178,6 @@ parts : (i,) int32
 straight : (k,) bool
     Whether each island of the mesh was laid out straight.
 )")
-      .def(
-          "proper_triangles",
-          [](const UnwrapMesh& mesh, const py::object& uvs) {
-            const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
-            return handed_over(without_gil([&] { return proper_triangles(mesh, own_uvs); }));
-          },
-          py::arg("uvs"),
-          R"(Find the visible triangles that a map must have the right way around.
-
-They are all but those that lie on a straight line in the map and on the model.
-
-Parameters
-----------
-uvs : (c, 2) array_like of float
-    The map.
-
-Returns
--------
-(j,) int32
-    Their numbers.
-)")
       .def("turn_back", &corners_turned_back, py::arg("uvs"), py::arg("islands"),
            R"(Turn back triangles of some islands that rounding to single precision has turned over.
 
@@ -205,7 +199,7 @@ uvs : (j, 2) float64
           "count_unmapped",
           [](const UnwrapMesh& mesh, const py::object& uvs) {
             const std::vector<Eigen::Vector2d> own_uvs = places_from(uvs, "uvs");
-            return without_gil([&] { return unmapped_polygons(mesh, own_uvs); });
+            return without_gil([&] { return count_unmapped(mesh, own_uvs); });
           },
           py::arg("uvs"),
           R"(Count the hidden polygons that have an area on the model, but none in the map.
@@ -225,17 +219,9 @@ void bind_island_copies(py::module_& module) {
   module.def(
       "island_copies",
       [](const py::object& islands) {
-        std::vector<ChosenIslands> chosen;
-        for (const py::object item : sequence_from(islands, "islands", "pairs of an UnwrapMesh and numbers")) {
-          const py::sequence pair = sequence_from(item, "islands", "pairs of an UnwrapMesh and numbers");
-          if (py::len(pair) != 2 || !py::isinstance<UnwrapMesh>(pair[0])) {
-            throw InvalidInput("islands: expected a sequence of pairs of an UnwrapMesh and numbers");
-          }
-          const auto& mesh = pair[0].cast<const UnwrapMesh&>();
-          chosen.push_back({&mesh, chosen_from(mesh, pair[1])});
-        }
+        const std::vector<MappedMesh> meshes = mapped_meshes_from(islands, "islands", 2);
         py::list found;
-        for (IslandCopy& copy : without_gil([&] { return find_island_copies(chosen); })) {
+        for (IslandCopy& copy : without_gil([&] { return island_copies(meshes); })) {
           found.append(py::make_tuple(copy.mesh, copy.island, handed_over(std::move(copy.corners)), copy.first_mesh,
                                       handed_over(std::move(copy.below))));
         }
@@ -265,38 +251,24 @@ ValueError
 void bind_map_faults(py::module_& module) {
   module.def(
       "map_faults",
-      [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands,
-         const py::object& polygons, const py::object& edges, const py::object& chosen, const py::object& homes,
-         bool may_stack, const py::object& progress) {
-        const MappedTriangles map{.points = points_from(points, "points"),
-                                  .triangles = triangles_from(triangles, "triangles"),
-                                  .polygons = numbers_from(polygons, "polygons"),
-                                  .islands = numbers_from(islands, "islands"),
-                                  .uvs = corner_uvs_from(uvs, "uvs"),
-                                  .edges = edges_from(edges, "edges")};
-        FaultOptions options{.may_stack = may_stack};
-        if (!chosen.is_none()) options.chosen = flags_from(chosen, "chosen");
-        if (!homes.is_none()) options.homes = places_from(homes, "homes");
-        const MapFaults faults = Watch(progress).run([&](const Task& task) { return map_faults(map, options, task); });
+      [](const py::object& maps, bool may_stack, const py::object& progress) {
+        const std::vector<MappedMesh> own = mapped_meshes_from(maps, "maps", 4);
+        const MapFaults faults =
+            Watch(progress).run([&](const Task& task) { return map_faults(own, may_stack, task); });
         return py::make_tuple(faults.flipped, faults.overlapping, faults.outside);
       },
-      py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands"), py::kw_only(), py::arg("polygons"),
-      py::arg("edges"), py::arg("chosen") = py::none(), py::arg("homes") = py::none(), py::arg("may_stack") = false,
-      py::arg("progress") = py::none(),
-      R"(Count what is wrong with islands in a UV map.
+      py::arg("maps"), py::kw_only(), py::arg("may_stack") = false, py::arg("progress") = py::none(),
+      R"(Count what is wrong with islands in a UV map that meshes share.
 
 Parameters
 ----------
-points, triangles, uvs, islands, edges, progress
-    As for the function `measure_map`. All that lies in the map. A UV may be not finite.
-polygons : (m,) array_like of int
-    The polygon that each triangle is part of.
-chosen : (k,) array_like of bool, optional
-    The islands whose faults count. The others are what these may overlap. None: all.
-homes : (k, 2) array_like of float, optional
-    The low corner of the unit square where each island may lie, besides the UV square.
+maps : sequence of (UnwrapMesh, (j,) array_like of int, (c, 2) array_like of float, (c, 2) array_like of float or None)
+    All that lies in the map: meshes, the islands whose faults count, UVs, and UVs in the former map. Other islands are
+    what these may overlap. A polygon has no place if a UV is not finite.
 may_stack : bool
     Whether islands may lie exactly on each other.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
 
 Returns
 -------
@@ -305,13 +277,55 @@ flipped : int
 overlapping : int
     Islands that cover a part of themselves or of another island.
 outside : int
-    Islands that lie neither in the UV square nor in their home.
+    Islands that lie neither in the UV square nor in the unit square where they were.
 
 Raises
 ------
 ValueError
-    If an array has the wrong shape or type, or a number is out of range.
+    If an item is no such tuple, an array has the wrong shape or type, or a number is out of range.
 Cancelled
+)");
+}
+
+void bind_map_stretch(py::module_& module) {
+  module.def(
+      "map_stretch",
+      [](const py::object& points, const py::object& triangles, const py::object& polygons, const py::object& uvs) {
+        const std::vector<Vector> own_points = points_from(points, "points");
+        const std::vector<Triangle> own_triangles = triangles_from(triangles, "triangles");
+        const std::vector<std::int32_t> own_polygons = numbers_from(polygons, "polygons");
+        const CornerUvs own_uvs = corner_uvs_from(uvs, "uvs");
+        MapStretch stretch = without_gil([&] { return map_stretch(own_points, own_triangles, own_polygons, own_uvs); });
+        return py::make_tuple(handed_over(std::move(stretch.angle)), handed_over(std::move(stretch.area)));
+      },
+      py::arg("points"), py::arg("triangles"), py::arg("polygons"), py::arg("uvs"),
+      R"(Measure how much a UV map stretches polygons, in octaves (powers of two).
+
+Let s1 >= s2 be the singular values of the map from a triangle to its UVs. Octaves above 5 count as 5. Polygons without
+area have zero.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    Vertices.
+triangles : (m, 3) array_like of int
+    Vertex numbers.
+polygons : (m,) array_like of int
+    The polygon that each triangle is part of, ascending.
+uvs : (m, 3, 2) array_like of float
+    The UVs of each triangle's corners.
+
+Returns
+-------
+angle : (m,) float64
+    log2(s1 / s2) of each triangle's polygon.
+area : (m,) float64
+    log2(s1 s2) of each triangle's polygon, where the mean of all is zero: positive where the map enlarges.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, or a vertex is out of range.
 )");
 }
 
@@ -428,6 +442,7 @@ void bind_islands(py::module_& module) {
   bind_unwrap_mesh(module);
   bind_island_copies(module);
   bind_map_faults(module);
+  bind_map_stretch(module);
   bind_island_hues(module);
   bind_place_islands(module);
 }

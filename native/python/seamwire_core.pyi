@@ -2182,21 +2182,6 @@ class UnwrapMesh:
         straight : (k,) bool
             Whether each island of the mesh was laid out straight.
         """
-    def proper_triangles(self, uvs: ArrayLike) -> NDArray[np.int32]:
-        """Find the visible triangles that a map must have the right way around.
-
-        They are all but those that lie on a straight line in the map and on the model.
-
-        Parameters
-        ----------
-        uvs : (c, 2) array_like of float
-            The map.
-
-        Returns
-        -------
-        (j,) int32
-            Their numbers.
-        """
     def turn_back(self, uvs: ArrayLike, islands: ArrayLike) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
         """Turn back triangles of some islands that rounding to single precision has turned over.
 
@@ -2250,32 +2235,22 @@ def island_copies(
     """
 
 def map_faults(
-    points: ArrayLike,
-    triangles: ArrayLike,
-    uvs: ArrayLike,
-    islands: ArrayLike,
+    maps: Sequence[tuple[UnwrapMesh, ArrayLike, ArrayLike, ArrayLike | None]],
     *,
-    polygons: ArrayLike,
-    edges: ArrayLike,
-    chosen: ArrayLike | None = None,
-    homes: ArrayLike | None = None,
     may_stack: bool = False,
     progress: Callable[[float], bool | None] | None = None,
 ) -> tuple[int, int, int]:
-    """Count what is wrong with islands in a UV map.
+    """Count what is wrong with islands in a UV map that meshes share.
 
     Parameters
     ----------
-    points, triangles, uvs, islands, edges, progress
-        As for the function `measure_map`. All that lies in the map. A UV may be not finite.
-    polygons : (m,) array_like of int
-        The polygon that each triangle is part of.
-    chosen : (k,) array_like of bool, optional
-        The islands whose faults count. The others are what these may overlap. None: all.
-    homes : (k, 2) array_like of float, optional
-        The low corner of the unit square where each island may lie, besides the UV square.
+    maps : sequence of (UnwrapMesh, (j,) array_like of int, (c, 2) array_like of float, (c, 2) array_like of float or None)
+        All that lies in the map: meshes, the islands whose faults count, UVs, and UVs in the former map. Other islands are
+        what these may overlap. A polygon has no place if a UV is not finite.
     may_stack : bool
         Whether islands may lie exactly on each other.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
 
     Returns
     -------
@@ -2284,13 +2259,48 @@ def map_faults(
     overlapping : int
         Islands that cover a part of themselves or of another island.
     outside : int
-        Islands that lie neither in the UV square nor in their home.
+        Islands that lie neither in the UV square nor in the unit square where they were.
 
     Raises
     ------
     ValueError
-        If an array has the wrong shape or type, or a number is out of range.
+        If an item is no such tuple, an array has the wrong shape or type, or a number is out of range.
     Cancelled
+    """
+
+def map_stretch(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    polygons: ArrayLike,
+    uvs: ArrayLike,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Measure how much a UV map stretches polygons, in octaves (powers of two).
+
+    Let s1 >= s2 be the singular values of the map from a triangle to its UVs. Octaves above 5 count as 5. Polygons without
+    area have zero.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Vertices.
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    polygons : (m,) array_like of int
+        The polygon that each triangle is part of, ascending.
+    uvs : (m, 3, 2) array_like of float
+        The UVs of each triangle's corners.
+
+    Returns
+    -------
+    angle : (m,) float64
+        log2(s1 / s2) of each triangle's polygon.
+    area : (m,) float64
+        log2(s1 s2) of each triangle's polygon, where the mean of all is zero: positive where the map enlarges.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a vertex is out of range.
     """
 
 def island_hues(

@@ -158,7 +158,7 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
     if uvs is None or not len(arrays.triangles):
         return None
     own = uvs[corners.of_triangles(arrays)]
-    return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
+    return MappedSurface(arrays.in_object, arrays.triangles, labels_of(arrays), own, arrays.edges)
 
 
 def maps_of(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, MappedSurface]:

@@ -23,8 +23,8 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import triangle_areas
-from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
-from ..core.islands.uv_islands import boxes_of, uv_areas
+from ..core.islands.map_faults import NO_FAULTS, MapFaults
+from ..core.islands.uv_islands import uv_areas
 from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -32,6 +32,7 @@ from .seam_islands import labels_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+    import seamwire_core
     from numpy.typing import NDArray
 
 UNWRAPPED = ".seamwire_unwrapped"
@@ -118,7 +119,7 @@ class _Map:
         self.stacked = np.empty(0, dtype=np.int64)
 
     @property
-    def _before(self) -> NDArray[np.float64]:
+    def before(self) -> NDArray[np.float64]:
         """The old map, (c, 2); zeros: there was no UV map."""
         return np.zeros((len(self.corners.vertices), 2)) if self._uvs is None else self._uvs.astype(np.float64)
 
@@ -157,7 +158,7 @@ class _Map:
         `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. An island has
         several numbers where the seams do not part what is no surface.
         """
-        places = None if self._uvs is None else self._before * (self.aspect, 1.0)
+        places = None if self._uvs is None else self.before * (self.aspect, 1.0)
         if start is not None:
             places = np.zeros((len(self.corners.vertices), 2))
             places[self.corners.of_triangles(self._arrays)] = start
@@ -182,30 +183,23 @@ class _Map:
         labels = self._labels[rows]
         return _ToPlace(
             np.searchsorted(corners, self._triangles[rows]),
-            self._before[corners],
+            self.before[corners],
             np.where(self._densities > 0.0, self._densities, density)[labels] ** 2 * self._areas[rows],
             self._are_straight[labels],
         )
 
-    def staying(self) -> NDArray[np.float64]:
-        """Return the bounds of the triangles that stay in the map, (b, 4); of hidden faces their own."""
-        if self._uvs is None:
+    def taken(self) -> NDArray[np.float64]:
+        """Return the bounds in the map of the faces that stay, are hidden, or lie where Blender has put them because of pins, (b, 4)."""
+        rows = ~np.isin(self._of_face[self.corners.faces], np.setdiff1d(self.changed, self.with_pins))
+        starts = np.flatnonzero(np.diff(self.corners.faces[rows], prepend=-1))
+        if self._uvs is None or not len(starts):
             return np.empty((0, 4))
-        staying = ~np.isin(self._of_face[self.corners.faces], self.changed)
-        starts = np.flatnonzero(np.diff(self.corners.faces[staying], prepend=-1))
-        uvs = self._uvs[staying].astype(np.float64)
-        if not len(starts):
-            return np.empty((0, 4))
+        uvs = uv_map.read_uvs(self.obj)[rows].astype(np.float64)
         return np.concatenate([np.minimum.reduceat(uvs, starts), np.maximum.reduceat(uvs, starts)], axis=1)
-
-    def pinned_down(self) -> NDArray[np.float64]:
-        """Return the bounds of the triangles of changed islands with pins, (b, 4), as Blender has unwrapped them."""
-        rows = np.isin(self._labels, self.with_pins)
-        return boxes_of(uv_map.read_uvs(self.obj)[self._triangles[rows]].astype(np.float64))
 
     def areas(self) -> NDArray[np.float64]:
         """Return the areas of the islands in the old map and on the model, (2, count)."""
-        in_map = uv_areas(self._before[self._triangles])
+        in_map = uv_areas(self.before[self._triangles])
         return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
 
     def restore(self) -> None:
@@ -227,26 +221,13 @@ class _Map:
                 if number in places:
                     loop[layer].uv = places[number]
 
-    def mapped(self) -> MappedSurface:
-        """Return the visible faces with the UVs that the mesh has."""
-        uvs = uv_map.read_uvs(self.obj)
-        rows = self.mesh.proper_triangles(uvs)
-        corners = self._triangles[rows]
-        polygons = self.corners.faces[corners[:, 0]].astype(np.int32)
-        triangles = self.corners.vertices[corners]
-        arrays = self._arrays
-        return MappedSurface(arrays.in_object, triangles, polygons, self._labels[rows], uvs[corners], arrays.edges)
+    def mapped(self) -> tuple[seamwire_core.UnwrapMesh, NDArray[np.int64], NDArray[np.float32]]:
+        """Return the mesh, the changed islands, and the UVs that the mesh has."""
+        return self.mesh, self.changed, uv_map.read_uvs(self.obj)
 
     def unmapped(self) -> int:
         """Return how many hidden faces have no area in the UV map that the mesh has."""
         return self.mesh.count_unmapped(uv_map.read_uvs(self.obj)) if (self._of_face < 0).any() else 0
-
-    def homes(self) -> NDArray[np.float64]:
-        """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
-        middles = self._before[self._triangles].mean(axis=1)
-        sizes = np.bincount(self._labels, minlength=self.count)
-        sums = np.stack([np.bincount(self._labels, column, self.count) for column in middles.T], axis=1)
-        return np.floor(sums / np.maximum(sizes, 1)[:, None])
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
@@ -344,15 +325,16 @@ def unwrap_changed(
     return Unwrapped(unwrapped, kept, faults, unmapped, problems, [found.obj for found in maps])
 
 
+def faults_of(obj: bpy.types.Object, *, may_stack: bool = False) -> MapFaults:
+    """Measure what is wrong with the UV map of an edit mesh, which must have one. Islands `may_stack`: lie exactly on each other."""
+    found = _Map(obj, every=True, by_library=True)
+    return MapFaults(*native.load().map_faults([(*found.mapped(), None)], may_stack=may_stack))
+
+
 def _faults(maps: Sequence[_Map]) -> MapFaults:
     """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
-    chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
-    return find_faults(
-        joined([found.mapped() for found in maps]),
-        chosen,
-        np.concatenate([found.homes() for found in maps]),
-        may_stack=any(len(found.stacked) for found in maps),
-    )
+    mapped = [(*found.mapped(), found.before) for found in maps]
+    return MapFaults(*native.load().map_faults(mapped, may_stack=any(len(found.stacked) for found in maps)))
 
 
 def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method: str) -> None:
@@ -370,7 +352,7 @@ def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method:
 
 def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
     """Give unwrapped islands a place each: beside those that stay, or packed as a layout says where nothing stays."""
-    taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
+    taken = np.concatenate([found.taken() for found in maps])
     if len(taken):  # where nothing stays, Blender has packed its islands
         solved = {found: solved.get(found) or found.unwrapped() for found in maps if len(found.changed)}
     if not solved:

@@ -154,9 +154,11 @@ def test_vertices_on_straight_sides_are_put_on_the_line_between_their_neighbors(
         for begin, shares in ((0, (0.25, 0.75)), (6, (0.25, 0.75))):
             for i, share in enumerate(shares, start=begin + 1):
                 assert uvs[i] == pytest.approx(uvs[begin] + share * (uvs[begin + 3] - uvs[begin]))
-        # With a map where all lies on one place, those of its triangles that have no area on the model do not count.
-        assert len(mesh.proper_triangles(np.zeros((12, 2)))) == 4
-        assert len(mesh.proper_triangles(np.random.default_rng(0).random((12, 2)))) == 8
+        # Triangles without area in the map do not count if they have none on the model.
+        assert sw.map_faults([(mesh, [0], 0.1 * uvs + 0.5, None)])[0] == 0
+        bent = 0.1 * uvs + 0.5
+        bent[[1, 2]] = 0.2 * bent[[0, 3]] + 0.8 * bent[[4, 4]]
+        assert sw.map_faults([(mesh, [0], bent, None)])[0] == 1
 
 
 def cap(height: float, mirrored: bool = False) -> tuple[sw.UnwrapMesh, np.ndarray]:
@@ -212,25 +214,26 @@ def test_corners_at_one_place_move_together_and_only_within_their_island() -> No
 # Faults
 
 
-def faults(*corners: tuple[float, float], unit: float = 1.0, **changes: object) -> tuple[int, int, int]:
-    """Return the faults of squares, each an island of two triangles, with their low corners at some places of the map."""
-    return sw.map_faults(**{**squares(*corners, unit=unit), **changes})
-
-
-def squares(*corners: tuple[float, float], unit: float = 1.0) -> dict[str, np.ndarray]:
-    count = len(corners)
+def squares(*corners: tuple[float, float], unit: float = 1.0) -> tuple[sw.UnwrapMesh, np.ndarray]:
+    """Return squares, each an island of two triangles, and a map with their low corners at some places."""
     flat = np.pad(unit * SQUARE, ((0, 0), (0, 1)))
-    lows = [np.array([2.0 * unit * i, 0.0, 0.0]) for i in range(count)]
-    triangles = np.concatenate([np.array([(0, 1, 2), (0, 2, 3)]) + 4 * i for i in range(count)])
-    numbers = np.repeat(np.arange(count), 2)
-    return {
-        "points": np.concatenate([flat + low for low in lows]),
-        "triangles": triangles,
-        "uvs": np.concatenate([0.2 * SQUARE + corner for corner in corners])[triangles].astype(np.float32),
-        "islands": numbers,
-        "polygons": numbers,
-        "edges": np.concatenate([np.array([(0, 1), (1, 2), (2, 3), (3, 0)]) + 4 * i for i in range(count)]),
-    }
+    points = np.concatenate([flat + unit * np.array([2.0 * i, 0.0, 0.0]) for i in range(len(corners))])
+    faces = [tuple(range(4 * i, 4 * i + 4)) for i in range(len(corners))]
+    mesh, _, _ = unwrap_mesh(points, faces, list(range(len(corners))))
+    return mesh, np.concatenate([0.2 * SQUARE + corner for corner in corners]).astype(np.float32)
+
+
+def faults(
+    *corners: tuple[float, float],
+    chosen: Sequence[int] = (0, 1, 2),
+    uvs: np.ndarray | None = None,
+    before: np.ndarray | None = None,
+    may_stack: bool = False,
+) -> tuple[int, int, int]:
+    """Return the faults of some of these squares, or of another map of them."""
+    mesh, own = squares(*corners)
+    numbers = [number for number in chosen if number < len(corners)]
+    return sw.map_faults([(mesh, numbers, own if uvs is None else uvs, before)], may_stack=may_stack)
 
 
 def test_islands_that_keep_apart_have_no_faults() -> None:
@@ -240,14 +243,16 @@ def test_islands_that_keep_apart_have_no_faults() -> None:
 def test_islands_that_overlap_count_if_they_are_looked_at() -> None:
     places = (0.0, 0.0), (0.1, 0.1), (0.5, 0.5)
     assert faults(*places) == (0, 2, 0)
-    assert faults(*places, chosen=[True, False, False]) == (0, 1, 0)
-    assert faults(*places, chosen=[False, False, True]) == (0, 0, 0)
+    assert faults(*places, chosen=[0]) == (0, 1, 0)
+    assert faults(*places, chosen=[2]) == (0, 0, 0)
 
 
 def test_a_face_that_doubles_another_one_is_measured_too() -> None:
-    doubled = np.array([(0, 1, 2), (0, 2, 3)] * 2)
-    assert faults((0.0, 0.0), (0.3, 0.0), triangles=doubled) == (0, 0, 0)
-    assert faults((0.0, 0.0), (0.0, 0.0), triangles=doubled) == (0, 2, 0)
+    points = np.pad(SQUARE, ((0, 0), (0, 1)))
+    mesh, _, _ = unwrap_mesh(points, [(0, 1, 2, 3), (0, 1, 2, 3)], [0, 1])
+    for second, found in (0.3, (0, 0, 0)), (0.0, (0, 2, 0)):
+        uvs = np.concatenate([0.2 * SQUARE, 0.2 * SQUARE + (second, 0.0)])
+        assert sw.map_faults([(mesh, [0, 1], uvs, None)]) == found
 
 
 def test_only_islands_that_lie_exactly_on_each_other_may_stack() -> None:
@@ -256,47 +261,57 @@ def test_only_islands_that_lie_exactly_on_each_other_may_stack() -> None:
     assert faults(*stacked, (0.5, 0.5), may_stack=True) == (0, 0, 0)
     assert faults((0.1, 0.1), (0.101, 0.1), (0.5, 0.5), may_stack=True) == (0, 2, 0)
     assert faults(*stacked, (0.2, 0.2), may_stack=True) == (0, 3, 0)
-    assert faults(*stacked, (0.2, 0.2), chosen=[False, True, False], may_stack=True) == (0, 1, 0)
+    assert faults(*stacked, (0.2, 0.2), chosen=[1], may_stack=True) == (0, 1, 0)
 
 
 def test_a_face_that_is_turned_over_in_a_stack_counts() -> None:
-    uvs = squares((0.1, 0.1), (0.1, 0.1))["uvs"]
-    uvs[1::2, 2] = uvs[0, 1] + (0.1, -0.1)
+    uvs = squares((0.1, 0.1), (0.1, 0.1))[1]
+    uvs[[3, 7]] = uvs[1] + (0.1, -0.1)
     assert faults((0.1, 0.1), (0.1, 0.1), uvs=uvs, may_stack=True)[0] == 2
 
 
-def test_an_island_may_lie_in_the_uv_square_or_in_its_home() -> None:
+def test_an_island_may_lie_in_the_uv_square_or_where_it_was() -> None:
     places = (0.0, 0.0), (1.1, 0.5), (1.9, 0.5)
     assert faults(*places) == (0, 0, 2)
-    assert faults(*places, homes=[(1.0, 0.0)] * 3) == (0, 0, 1)
+    assert faults(*places, before=squares(*[(1.3, 0.3)] * 3)[1]) == (0, 0, 1)
 
 
 def test_faces_that_are_turned_over_or_have_no_number_count_once() -> None:
-    uvs = squares((0.2, 0.2), (0.7, 0.7))["uvs"]
-    uvs[1, 2] = uvs[0, 1] + (0.1, -0.1)
+    uvs = squares((0.2, 0.2), (0.7, 0.7))[1]
+    uvs[3] = uvs[1] + (0.1, -0.1)
     assert faults((0.2, 0.2), (0.7, 0.7), uvs=uvs) == (1, 1, 0)
-    uvs[:2] = np.nan
+    uvs[:4] = np.nan
     assert faults((0.2, 0.2), (0.7, 0.7), uvs=uvs) == (1, 0, 0)
     uvs[:] = np.nan
     assert faults((0.2, 0.2), (0.7, 0.7), uvs=uvs) == (2, 0, 0)
 
 
 def test_a_face_whose_corners_lie_in_one_place_is_never_turned_over() -> None:
-    points, uvs = squares((0.2, 0.2), (0.7, 0.7))["points"], squares((0.2, 0.2), (0.7, 0.7))["uvs"]
-    points[4:] = points[4]
-    uvs[2:] = uvs[2, 0]
-    shrunk = {"points": points, "uvs": uvs}
-    assert faults((0.2, 0.2), (0.7, 0.7), **shrunk) == (0, 0, 0)
-    uvs[2] = uvs[2, 0] + [(0.0, 0.0), (0.0, 0.1), (0.1, 0.0)]
-    assert faults((0.2, 0.2), (0.7, 0.7), **shrunk) == (0, 0, 0)
-    uvs[3, 1] = np.nan
-    assert faults((0.2, 0.2), (0.7, 0.7), **shrunk) == (1, 0, 0), "it has no map at all"
+    points = np.pad(np.concatenate([SQUARE, np.full((4, 2), 3.0)]), ((0, 0), (0, 1)))
+    mesh, _, _ = unwrap_mesh(points, [(0, 1, 2, 3), (4, 5, 6, 7)], [0, 1])
+    uvs = squares((0.2, 0.2), (0.7, 0.7))[1]
+    for place in uvs[4], uvs[4] + (0.0, 0.1), uvs[4] - (0.1, 0.0):
+        uvs[4:] = uvs[4]
+        uvs[5] = place
+        assert sw.map_faults([(mesh, [0, 1], uvs, None)]) == (0, 0, 0)
+    uvs[5] = np.nan
+    assert sw.map_faults([(mesh, [0, 1], uvs, None)]) == (1, 0, 0), "it has no map at all"
 
 
 def test_a_mirrored_island_is_good() -> None:
-    uvs = squares((0.0, 0.0), (0.5, 0.5))["uvs"]
-    uvs[:2, :, 0] = 0.2 - uvs[:2, :, 0]
+    uvs = squares((0.0, 0.0), (0.5, 0.5))[1]
+    uvs[:4, 0] = 0.2 - uvs[:4, 0]
     assert faults((0.0, 0.0), (0.5, 0.5), uvs=uvs) == (0, 0, 0)
+
+
+def test_maps_of_several_meshes_of_any_size_share_the_square() -> None:
+    large, uvs = squares((0.0, 0.0), (0.5, 0.5), unit=1e6)
+    for place, found, alone in ((0.6, 0.6), (0, 2, 0), (0, 1, 0)), ((0.8, 0.0), (0, 0, 0), (0, 0, 0)):
+        small, own = squares(place, unit=1e-6)
+        assert sw.map_faults([(large, [0, 1], uvs, None), (small, [0], own, None)]) == found
+        assert sw.map_faults([(large, [], uvs, None), (small, [0], own, None)]) == alone
+    with pytest.raises(ValueError, match="maps: expected a sequence of"):
+        sw.map_faults([(large, [0])])
 
 
 # Copies: a bent strip of three quads and a triangle, without any symmetry.
@@ -364,7 +379,7 @@ def test_copies_are_found_among_several_meshes() -> None:
     meshes = [unwrap_mesh(POINTS, FACES)[0] for _ in range(3)]
     found = sw.island_copies([(meshes[0], [0]), (meshes[1], []), (meshes[2], [0])])
     assert [(mesh, island, first) for mesh, island, _, first, _ in found] == [(2, 0, 0)]
-    with pytest.raises(ValueError, match="pairs of an UnwrapMesh"):
+    with pytest.raises(ValueError, match="islands: expected a sequence of"):
         sw.island_copies([meshes[0]])
 
 

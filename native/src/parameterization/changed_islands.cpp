@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/parameterization/changed_islands.hpp"
+#include "seamwire/parameterization/unwrap_mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,7 +9,6 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
-#include "parameterization/overlaps.hpp"
 #include "parameterization/straight_corners.hpp"
 #include "seamwire/errors.hpp"
 
@@ -30,32 +29,23 @@ constexpr double kThin = 1e-6;
 /// The part of an island's faces that must be turned over for the island to count as folded.
 constexpr double kFolded = 0.25;
 
-/// The corners at which two visible polygons have an edge.
+/// One of the mesh's joints in a map.
 struct Joint {
   std::int32_t one, two;
   bool is_torn;
 };
 
-std::vector<Joint> joints_of(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
-  const UnwrapArrays& arrays = mesh.arrays();
-  std::vector<std::array<std::int32_t, 3>> at_edge(arrays.seams.size(), {-1, -1, 0});
-  for (std::int32_t c = 0; index(c) < mesh.corner_count(); ++c) {
-    if (mesh.island(c) < 0) continue;
-    std::array<std::int32_t, 3>& own = at_edge[arrays.edges[c]];
-    if (own[2] < 2) own[static_cast<std::size_t>(own[2])] = c;
-    ++own[2];
-  }
+std::vector<Joint> joints_in(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
   const auto is_apart = [&](std::int32_t a, std::int32_t b) {
     const Vector2d gap = uvs[a] - uvs[b];
     return !(std::abs(gap.x()) <= kOnePlace && std::abs(gap.y()) <= kOnePlace);
   };
   std::vector<Joint> joints;
-  for (const auto& [one, two, count] : at_edge) {
-    if (count != 2) continue;
+  for (const auto& [one, two] : mesh.joints) {
     // Neighbors go along their edge in opposite ways, unless one is flipped.
-    std::int32_t begin = two, end = mesh.following(two);
-    if (arrays.vertices[one] == arrays.vertices[end]) std::swap(begin, end);
-    joints.push_back({one, two, is_apart(one, begin) || is_apart(mesh.following(one), end)});
+    std::int32_t begin = two, end = mesh.following[two];
+    if (mesh.vertices[one] == mesh.vertices[end]) std::swap(begin, end);
+    joints.push_back({one, two, is_apart(one, begin) || is_apart(mesh.following[one], end)});
   }
   return joints;
 }
@@ -67,11 +57,11 @@ struct Lie {
 };
 
 Lie lie_of(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
-  const std::size_t count = mesh.arrays().sizes.size();
+  const std::size_t count = mesh.sizes.size();
   std::vector<double> in_map(count, 0.0), on_model(count, 0.0);
-  for (const Triangle& t : mesh.arrays().triangles) {
-    in_map[mesh.polygon(t[0])] += 0.5 * doubled_area(uvs_of(t, uvs));
-    on_model[mesh.polygon(t[0])] += 0.5 * doubled_area(mesh, t);
+  for (const Triangle& t : mesh.triangles) {
+    in_map[mesh.polygons[t[0]]] += 0.5 * doubled_area(uvs_of(t, uvs));
+    on_model[mesh.polygons[t[0]]] += 0.5 * doubled_area(mesh, t);
   }
   Lie lie{.is_flat = Flags(count, 0), .turns = std::vector<int>(count, 0)};
   std::int32_t c = 0;
@@ -79,7 +69,7 @@ Lie lie_of(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
     Eigen::AlignedBox2d map_box;
     Eigen::AlignedBox3d model_box;
     bool is_finite = true;
-    for (std::int32_t i = 0; i < mesh.arrays().sizes[p]; ++i, ++c) {
+    for (std::int32_t i = 0; i < mesh.sizes[p]; ++i, ++c) {
       is_finite = is_finite && uvs[c].allFinite();
       map_box.extend(uvs[c]);
       model_box.extend(point_of(mesh, c));
@@ -93,12 +83,11 @@ Lie lie_of(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
 
 /// For each polygon 1 or -1, such that polygons at a joint go around in one way after multiplying.
 std::vector<int> one_way_around(const UnwrapMesh& mesh, const std::vector<Joint>& joints) {
-  const std::size_t count = mesh.arrays().sizes.size();
+  const std::size_t count = mesh.sizes.size();
   std::vector<std::vector<std::pair<std::int32_t, int>>> beside(count);
   for (const Joint& joint : joints) {
-    const std::vector<std::int32_t>& vertices = mesh.arrays().vertices;
-    const int sign = vertices[joint.one] == vertices[mesh.following(joint.two)] ? 1 : -1;
-    const std::int32_t one = mesh.polygon(joint.one), two = mesh.polygon(joint.two);
+    const int sign = mesh.vertices[joint.one] == mesh.vertices[mesh.following[joint.two]] ? 1 : -1;
+    const std::int32_t one = mesh.polygons[joint.one], two = mesh.polygons[joint.two];
     beside[one].emplace_back(two, sign);
     beside[two].emplace_back(one, sign);
   }
@@ -124,7 +113,7 @@ std::vector<int> one_way_around(const UnwrapMesh& mesh, const std::vector<Joint>
 class ChangeFinder {
  public:
   ChangeFinder(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs, const std::vector<EdgeMemory>& memory)
-      : mesh_(mesh), uvs_(uvs), memory_(memory), joints_(joints_of(mesh, uvs)), is_changed_(mesh.island_count(), 0) {}
+      : mesh_(mesh), uvs_(uvs), memory_(memory), joints_(joints_in(mesh, uvs)), is_changed_(mesh.island_count, 0) {}
 
   IslandChanges find(const Task& task) {
     std::vector<double> densities = compare_areas();
@@ -132,7 +121,7 @@ class ChangeFinder {
     bool any_known = false;
     for (const Joint& joint : joints_) {
       const EdgeMemory memory = memory_[edge(joint)];
-      const bool is_seam = mesh_.arrays().seams[edge(joint)] != 0;
+      const bool is_seam = mesh_.seams[edge(joint)] != 0;
       const bool agrees = memory == (is_seam ? EdgeMemory::kSeam : EdgeMemory::kPlain);
       const bool is_odd = (joint.is_torn != is_seam && !agrees) || memory == EdgeMemory::kJoined;
       const bool known = memory == EdgeMemory::kSeam || memory == EdgeMemory::kPlain;
@@ -148,13 +137,13 @@ class ChangeFinder {
   }
 
  private:
-  std::int32_t edge(const Joint& joint) const { return mesh_.arrays().edges[joint.one]; }
+  std::int32_t edge(const Joint& joint) const { return mesh_.edges[joint.one]; }
 
   /// Islands without an area in the map have changed. Returns the densities.
   std::vector<double> compare_areas() {
     const std::size_t count = is_changed_.size();
     std::vector<double> in_map(count, 0.0), on_model(count, 0.0), map_sums(count, 0.0), model_sums(count, 0.0);
-    for (const Triangle& t : mesh_.arrays().triangles) {
+    for (const Triangle& t : mesh_.triangles) {
       const std::int32_t island = mesh_.island(t[0]);
       if (island < 0) continue;
       in_map[island] += std::abs(doubled_area(uvs_of(t, uvs_)));
@@ -183,21 +172,21 @@ class ChangeFinder {
     Lie lie = lie_of(mesh_, uvs_);
     std::vector<Joint> whole;
     for (const Joint& joint : joints_) {
-      if (!joint.is_torn && mesh_.arrays().seams[edge(joint)] == 0) whole.push_back(joint);
+      if (!joint.is_torn && mesh_.seams[edge(joint)] == 0) whole.push_back(joint);
     }
     const std::vector<int> signs = one_way_around(mesh_, whole);
     const std::size_t count = is_changed_.size();
     std::vector<double> sizes(count, 0.0), clockwise(count, 0.0);
     for (std::size_t p = 0; p < signs.size(); ++p) {
       lie.turns[p] *= signs[p];
-      const std::int32_t island = mesh_.arrays().islands[p];
+      const std::int32_t island = mesh_.islands[p];
       if (island < 0) continue;
       if (lie.is_flat[p] != 0) is_changed_[island] = 1;
       if (lie.turns[p] != 0) sizes[island] += 1.0;
       if (lie.turns[p] < 0) clockwise[island] += 1.0;
     }
     for (const Joint& joint : whole) {
-      if (lie.turns[mesh_.polygon(joint.one)] * lie.turns[mesh_.polygon(joint.two)] >= 0) continue;
+      if (lie.turns[mesh_.polygons[joint.one]] * lie.turns[mesh_.polygons[joint.two]] >= 0) continue;
       const std::int32_t island = mesh_.island(joint.one);
       const bool are_few = std::min(clockwise[island], sizes[island] - clockwise[island]) < kFolded * sizes[island];
       if (is_known[island] != 0 || are_few) is_changed_[island] = 1;
@@ -206,14 +195,7 @@ class ChangeFinder {
 
   void find_overlapping(const Flags& is_new, const Task& task) {
     if (std::ranges::count(is_new, 1) == 0) return;
-    const MappedTriangles map = mapped_triangles(mesh_, uvs_, proper_triangles(mesh_, uvs_));
-    Flags is_shown;
-    for (const auto& own : map.uvs) {
-      const double longest = longest_side(own);
-      // Triangles that lie on a line cover nothing.
-      is_shown.push_back(std::abs(doubled_area(own)) > kOnLine * longest * longest ? 1 : 0);
-    }
-    for (const std::int32_t island : find_overlaps(map, is_shown, task).overlapping) {
+    for (const std::int32_t island : overlapping_islands(mesh_, uvs_, task)) {
       if (is_new[island] != 0) is_changed_[island] = 1;
     }
   }
@@ -229,20 +211,20 @@ class ChangeFinder {
 
 IslandChanges changed_islands(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs,
                               const std::vector<EdgeMemory>& memory, const Task& task) {
-  check_uvs(mesh, uvs);
-  if (memory.size() != mesh.arrays().seams.size()) {
+  check_corners(mesh, uvs);
+  if (memory.size() != mesh.seams.size()) {
     throw InvalidInput("memory has " + std::to_string(memory.size()) + " items: there are " +
-                       std::to_string(mesh.arrays().seams.size()) + " edges");
+                       std::to_string(mesh.seams.size()) + " edges");
   }
   return ChangeFinder(mesh, uvs, memory).find(task);
 }
 
-std::size_t unmapped_polygons(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
-  check_uvs(mesh, uvs);
+std::size_t count_unmapped(const UnwrapMesh& mesh, const std::vector<Vector2d>& uvs) {
+  check_corners(mesh, uvs);
   const Lie lie = lie_of(mesh, uvs);
   std::size_t count = 0;
   for (std::size_t p = 0; p < lie.is_flat.size(); ++p) {
-    if (lie.is_flat[p] != 0 && mesh.arrays().islands[p] < 0) ++count;
+    if (lie.is_flat[p] != 0 && mesh.islands[p] < 0) ++count;
   }
   return count;
 }

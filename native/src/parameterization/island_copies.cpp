@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/parameterization/island_copies.hpp"
+#include "seamwire/parameterization/unwrap_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "detail/index.hpp"
 #include "parameterization/straight_corners.hpp"
-#include "seamwire/errors.hpp"
 
 namespace seamwire {
 
@@ -54,20 +51,12 @@ struct IslandShape {
   }
 };
 
-/// Each corner's edge to the next one, seen from the neighbor in the same island; -1 at a seam or a border.
+/// The corners' edges to the next ones, seen from the neighbors in the same islands; -1 at seams and borders.
 Numbers mates_of(const UnwrapMesh& mesh) {
-  const UnwrapArrays& arrays = mesh.arrays();
-  std::vector<std::array<std::int32_t, 3>> at_edge(arrays.seams.size(), {-1, -1, 0});
-  for (std::int32_t c = 0; index(c) < mesh.corner_count(); ++c) {
-    if (mesh.island(c) < 0 || arrays.seams[arrays.edges[c]] != 0) continue;
-    std::array<std::int32_t, 3>& own = at_edge[arrays.edges[c]];
-    if (own[2] < 2) own[static_cast<std::size_t>(own[2])] = c;
-    ++own[2];
-  }
-  Numbers mates(mesh.corner_count(), -1);
-  for (const auto& [one, two, count] : at_edge) {
-    if (count != 2 || mesh.island(one) != mesh.island(two)) continue;
-    if (arrays.vertices[one] != arrays.vertices[mesh.following(two)]) continue;
+  Numbers mates(mesh.vertices.size(), -1);
+  for (const auto& [one, two] : mesh.joints) {
+    if (mesh.seams[mesh.edges[one]] != 0 || mesh.island(one) != mesh.island(two)) continue;
+    if (mesh.vertices[one] != mesh.vertices[mesh.following[two]]) continue;
     mates[one] = two;
     mates[two] = one;
   }
@@ -76,20 +65,20 @@ Numbers mates_of(const UnwrapMesh& mesh) {
 
 std::vector<IslandShape> shapes_of(const UnwrapMesh& mesh) {
   const Numbers mates = mates_of(mesh);
-  std::vector<IslandShape> shapes(mesh.island_count());
-  Numbers own(mesh.corner_count(), -1);
-  for (std::int32_t c = 0; index(c) < mesh.corner_count(); ++c) {
+  std::vector<IslandShape> shapes(mesh.island_count);
+  Numbers own(mesh.vertices.size(), -1);
+  for (std::int32_t c = 0; index(c) < mesh.vertices.size(); ++c) {
     if (mesh.island(c) < 0) continue;
     IslandShape& shape = shapes[mesh.island(c)];
     own[c] = static_cast<std::int32_t>(shape.size());
     shape.corners.push_back(c);
     shape.begins.push_back(own[c]);
-    shape.lengths.push_back((point_of(mesh, mesh.following(c)) - point_of(mesh, c)).norm());
-    shape.spans.push_back((point_of(mesh, mesh.following(c)) - point_of(mesh, mesh.preceding(c))).norm());
+    shape.lengths.push_back((point_of(mesh, mesh.following[c]) - point_of(mesh, c)).norm());
+    shape.spans.push_back((point_of(mesh, mesh.following[c]) - point_of(mesh, mesh.preceding[c])).norm());
   }
   for (IslandShape& shape : shapes) {
     for (const std::int32_t c : shape.corners) {
-      shape.following.push_back(own[mesh.following(c)]);
+      shape.following.push_back(own[mesh.following[c]]);
       shape.mates.push_back(mates[c] < 0 ? -1 : own[mates[c]]);
     }
     if (shape.size() == 0) continue;
@@ -166,7 +155,7 @@ std::optional<Numbers> corresponding(const IslandShape& shape, const IslandShape
 
 }  // namespace
 
-std::vector<IslandCopy> find_island_copies(std::span<const ChosenIslands> chosen) {
+std::vector<IslandCopy> island_copies(std::span<const MappedMesh> meshes) {
   struct First {
     std::size_t mesh;
     IslandShape shape;
@@ -175,16 +164,12 @@ std::vector<IslandCopy> find_island_copies(std::span<const ChosenIslands> chosen
   // By the number of corners: the length of all edges, and the number of the first island with this shape.
   std::map<std::size_t, std::set<std::pair<double, std::size_t>>> alike;
   std::vector<IslandCopy> copies;
-  for (std::size_t m = 0; m < chosen.size(); ++m) {
-    const auto& [mesh, is_chosen] = chosen[m];
-    if (is_chosen.size() != mesh->island_count()) {
-      throw InvalidInput("is_chosen has " + std::to_string(is_chosen.size()) + " items: there are " +
-                         std::to_string(mesh->island_count()) + " islands");
-    }
-    std::vector<IslandShape> shapes = shapes_of(*mesh);
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    check_islands(*meshes[m].mesh, meshes[m].is_chosen);
+    std::vector<IslandShape> shapes = shapes_of(*meshes[m].mesh);
     for (std::int32_t i = 0; index(i) < shapes.size(); ++i) {
       IslandShape& shape = shapes[i];
-      if (is_chosen[i] == 0 || shape.size() == 0) continue;
+      if (meshes[m].is_chosen[i] == 0 || shape.size() == 0) continue;
       auto& known = alike[shape.size()];
       const double reach = shape.tolerance * static_cast<double>(shape.size());
       std::set<std::size_t> candidates;

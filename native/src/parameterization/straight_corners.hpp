@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/parameterization/unwrap_mesh.hpp"
 
 namespace seamwire::detail {
@@ -39,8 +41,33 @@ StraightCorners find_straight_corners(const UnwrapMesh& mesh);
 /// around has all triangles right into which the face may be cut there.
 std::vector<Triangle> triangles_to_map(const UnwrapMesh& mesh, std::span<const Triangle> triangles);
 
+/// Throws InvalidInput unless there is an item for each corner or island.
+void check_corners(const UnwrapMesh& mesh, const std::vector<Eigen::Vector2d>& uvs);
+void check_islands(const UnwrapMesh& mesh, const std::vector<std::uint8_t>& flags);
+
+/// The edges of the visible polygons of chosen islands, as pairs of vertices.
+std::vector<Edge> edges_of(const UnwrapMesh& mesh, const std::vector<std::uint8_t>& is_chosen, bool only_seams = false);
+
+/// The islands of a map that overlap themselves or others, without triangles that cover nothing. Throws Cancelled.
+std::vector<std::int32_t> overlapping_islands(const UnwrapMesh& mesh, const std::vector<Eigen::Vector2d>& uvs,
+                                              const Task& task);
+
+using Corners2 = std::array<Eigen::Vector2d, 3>;
+
+inline Corners2 uvs_of(const Triangle& t, const std::vector<Eigen::Vector2d>& uvs) {
+  return {uvs[t[0]], uvs[t[1]], uvs[t[2]]};
+}
+
+inline bool is_placed(const Corners2& uvs) { return uvs[0].allFinite() && uvs[1].allFinite() && uvs[2].allFinite(); }
+
+/// Twice the area, negative if the corners go clockwise.
+inline double doubled_area(const Corners2& uvs) {
+  const Eigen::Vector2d a = uvs[1] - uvs[0], b = uvs[2] - uvs[0];
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 inline const Vector& point_of(const UnwrapMesh& mesh, std::int32_t corner) {
-  return mesh.arrays().points[mesh.arrays().vertices[corner]];
+  return mesh.points[mesh.vertices[corner]];
 }
 
 /// Twice the area of a triangle on the model.

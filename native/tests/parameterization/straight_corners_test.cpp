@@ -34,8 +34,8 @@ UnwrapMesh mesh_of(const std::vector<std::vector<std::int32_t>>& polygons, const
 
 std::map<std::int32_t, std::int32_t> left_out(const UnwrapMesh& mesh) {
   std::map<std::int32_t, std::int32_t> found;
-  for (const auto& each : straight_corners(mesh).left_out) {
-    found[each.corner] = straight_corners(mesh).onto[each.corner];
+  for (const auto& each : mesh.straight->left_out) {
+    found[each.corner] = mesh.straight->onto[each.corner];
   }
   return found;
 }

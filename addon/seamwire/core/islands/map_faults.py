@@ -12,8 +12,6 @@ from ..base import native
 from ..base.geometry import triangle_areas
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
 
@@ -45,7 +43,6 @@ class MappedSurface:
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
-    polygons: NDArray[np.int32]
     labels: NDArray[np.int32]
     uvs: NDArray[np.floating]
     edges: NDArray[np.int32]
@@ -70,53 +67,3 @@ class MappedSurface:
             return np.inf
         numbers, uvs = np.unique(self.labels[rows], return_inverse=True)[1], self.uvs[rows] * (aspect, 1.0)
         return native.load().map_energy(self.points, self.triangles[rows], uvs, islands=numbers, edges=self.edges)
-
-
-def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
-    """Return maps that share the UV square as the map of one mesh. Each keeps the order of its triangles.
-
-    All meshes get the same size, because faces that are tiny beside the whole mesh have no shape that can be measured.
-    """
-    if len(surfaces) == 1:
-        return surfaces[0]
-    points, triangles, polygons, labels, edges = [], [], [], [], []
-    vertices = faces = islands = 0
-    for each in surfaces:
-        size = float(np.ptp(each.points, axis=0).max(initial=0.0))
-        points.append(each.points / size if size > 0.0 else each.points)
-        triangles.append(each.triangles + vertices)
-        polygons.append(each.polygons + faces)
-        labels.append(each.labels + islands)
-        edges.append(each.edges + vertices)
-        vertices += len(each.points)
-        faces += int(each.polygons.max(initial=-1)) + 1
-        islands += each.count
-    columns = (points, triangles, polygons, labels, [each.uvs for each in surfaces], edges)
-    return MappedSurface(*map(np.concatenate, columns))
-
-
-def find_faults(
-    surface: MappedSurface,
-    chosen: NDArray[np.bool_] | None = None,
-    homes: NDArray[np.float64] | None = None,
-    *,
-    may_stack: bool = False,
-) -> MapFaults:
-    """Measure what is wrong with some islands of a map. The surface is all that lies in the map.
-
-    Only islands that are `chosen`, (count,), are looked at; the others count as what these may overlap. An island may lie in the UV square,
-    or in the tile with the low corner that it has in `homes`, (count, 2). If islands `may_stack`, they may lie exactly on each other.
-    """
-    return MapFaults(
-        *native.load().map_faults(
-            surface.points,
-            surface.triangles,
-            surface.uvs,
-            surface.labels,
-            polygons=surface.polygons,
-            edges=surface.edges,
-            chosen=chosen,
-            homes=homes,
-            may_stack=may_stack,
-        )
-    )

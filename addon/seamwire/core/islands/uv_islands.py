@@ -44,8 +44,3 @@ def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the areas of triangles, (t, 3, 2)."""
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
-
-
-def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the bounds of triangles, (t, 3, 2), as low u, low v, high u, high v: (t, 4)."""
-    return np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1).reshape(-1, 4)
