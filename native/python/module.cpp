@@ -34,6 +34,7 @@ functions on other threads stop and raise SystemExit.)";
   bind_faces(module);
   bind_cut(module);
   bind_flatten(module);
+  bind_islands(module);
   bind_seams(module);
   bind_views(module);
 }

@@ -22,6 +22,7 @@ void bind_rays(py::module_& module);
 void bind_faces(py::module_& module);
 void bind_cut(py::module_& module);
 void bind_flatten(py::module_& module);
+void bind_islands(py::module_& module);
 void bind_seams(py::module_& module);
 void bind_views(py::module_& module);
 

@@ -2088,6 +2088,309 @@ def pack_islands(
     Cancelled
     """
 
+class UnwrapMesh:
+    """The polygons of a mesh with their islands, for UV maps.
+
+    Corners are numbered polygon by polygon. UVs of all corners are (c, 2) array_like of float. Methods raise ValueError if
+    an array has the wrong shape or type, or a number is out of range.
+
+    A vertex in the middle of a straight side of two polygons may be in a triangle without area on both sides. Maps are made
+    without it. Then it is put on the straight line between its neighbors.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Finite coordinates.
+    vertices : (c,) array_like of int
+        The vertex of each corner.
+    edges : (c,) array_like of int
+        The edge from each corner to the next corner of its polygon.
+    sizes : (p,) array_like of int
+        How many corners each polygon has.
+    triangles : (t, 3) array_like of int
+        Corners: how polygons are drawn.
+    islands : (p,) array_like of int
+        The island of each polygon, from 0, or -1 if it is hidden.
+    seams : (e,) array_like of bool
+        Whether each edge is a seam.
+
+    Raises
+    ------
+    ValueError
+        If arrays do not fit together.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        vertices: ArrayLike,
+        edges: ArrayLike,
+        sizes: ArrayLike,
+        triangles: ArrayLike,
+        islands: ArrayLike,
+        seams: ArrayLike,
+    ) -> None: ...
+    def changes(self, uvs: ArrayLike, memory: ArrayLike) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """Find the islands that no longer are what the seams say.
+
+        The map is torn at an edge without a seam of such an island, is whole at a seam, or has no area. Or it has a polygon
+        without area, a part that is folded over, or a new island that overlaps.
+
+        Parameters
+        ----------
+        uvs : (c, 2) array_like of float
+            The map.
+        memory : (e,) array_like of int
+            What each edge was when it was unwrapped last: 0 not known, 1 no seam, 2 a seam. 3: its polygons were joined later,
+            so that the map may be torn inside them. An edge that still is what it was does not count.
+
+        Returns
+        -------
+        changed : (k,) bool
+            Whether each island has changed.
+        densities : (k,) float64
+            Lengths in the map over lengths on the model, the same for islands that are one in the map. 0 if it is not known.
+        """
+    def flatten(
+        self,
+        islands: ArrayLike,
+        *,
+        start: ArrayLike | None = None,
+        straighten: float | None = None,
+        up: ArrayLike | None = None,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.int32], NDArray[np.bool_]]:
+        """Map some islands to the plane, as `flatten` does.
+
+        Parameters
+        ----------
+        islands : (j,) array_like of int
+            Their numbers.
+        start : (c, 2) array_like of float, optional
+            A former map, of any scale. It is not used if it has places that are not finite.
+        straighten, up, progress
+            As for the function `flatten`.
+
+        Returns
+        -------
+        corners : (i,) int32
+            The corners of these islands, ascending.
+        uvs : (i, 2) float64
+            Their places, in the points' unit of length.
+        parts : (i,) int32
+            Which of them hang together in the map. Parts may lie on each other.
+        straight : (k,) bool
+            Whether each island of the mesh was laid out straight.
+        """
+    def turn_back(self, uvs: ArrayLike, islands: ArrayLike) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+        """Turn back triangles of some islands that rounding to single precision has turned over.
+
+        Parameters
+        ----------
+        uvs : (c, 2) array_like of float
+            The map, in single precision.
+        islands : (j,) array_like of int
+            The numbers of the islands.
+
+        Returns
+        -------
+        corners : (j,) int32
+            The corners that move.
+        uvs : (j, 2) float64
+            Their new UVs.
+        """
+    def count_unmapped(self, uvs: ArrayLike) -> int:
+        """Count the hidden polygons that have an area on the model, but none in the map.
+
+        Parameters
+        ----------
+        uvs : (c, 2) array_like of float
+            The map.
+
+        Returns
+        -------
+        int
+        """
+
+def island_copies(
+    islands: Sequence[tuple[UnwrapMesh, ArrayLike]],
+) -> list[tuple[int, int, NDArray[np.int32], int, NDArray[np.int32]]]:
+    """Find the islands that are copies of earlier ones: the same polygons with the same lengths, mirrored or not.
+
+    Parameters
+    ----------
+    islands : sequence of (UnwrapMesh, (j,) array_like of int)
+        Meshes with the numbers of islands.
+
+    Returns
+    -------
+    list of (int, int, (c,) int32, int, (c,) int32)
+        For each copy: the place of its mesh in the sequence, its island, its corners, the place of the mesh of the first
+        island of this shape, and the corners there that correspond.
+
+    Raises
+    ------
+    ValueError
+        If an item is no such pair, or an island is out of range.
+    """
+
+def map_faults(
+    maps: Sequence[tuple[UnwrapMesh, ArrayLike, ArrayLike, ArrayLike | None]],
+    *,
+    may_stack: bool = False,
+    progress: Callable[[float], bool | None] | None = None,
+) -> tuple[int, int, int]:
+    """Count what is wrong with islands in a UV map that meshes share.
+
+    Parameters
+    ----------
+    maps : sequence of (UnwrapMesh, (j,) array_like of int, (c, 2) array_like of float, (c, 2) array_like of float or None)
+        All that lies in the map: meshes, the islands whose faults count, UVs, and UVs in the former map. Other islands are
+        what these may overlap. A polygon has no place if a UV is not finite.
+    may_stack : bool
+        Whether islands may lie exactly on each other.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    flipped : int
+        Polygons that are turned over against their island, or have no area or no place in the map.
+    overlapping : int
+        Islands that cover a part of themselves or of another island.
+    outside : int
+        Islands that lie neither in the UV square nor in the unit square where they were.
+
+    Raises
+    ------
+    ValueError
+        If an item is no such tuple, an array has the wrong shape or type, or a number is out of range.
+    Cancelled
+    """
+
+def map_stretch(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    polygons: ArrayLike,
+    uvs: ArrayLike,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Measure how much a UV map stretches polygons, in octaves (powers of two).
+
+    Let s1 >= s2 be the singular values of the map from a triangle to its UVs. Octaves above 5 count as 5. Polygons without
+    area have zero.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Vertices.
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    polygons : (m,) array_like of int
+        The polygon that each triangle is part of, ascending.
+    uvs : (m, 3, 2) array_like of float
+        The UVs of each triangle's corners.
+
+    Returns
+    -------
+    angle : (m,) float64
+        log2(s1 / s2) of each triangle's polygon.
+    area : (m,) float64
+        log2(s1 s2) of each triangle's polygon, where the mean of all is zero: positive where the map enlarges.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a vertex is out of range.
+    """
+
+def island_hues(
+    triangles: ArrayLike,
+    islands: ArrayLike,
+    cuts: ArrayLike,
+    former_islands: ArrayLike = (),
+    former_hues: ArrayLike = (),
+) -> NDArray[np.uint8]:
+    """Choose a hue for each island, far in the rainbow from those of its neighbors.
+
+    Hue h is the color at (4 + 5 h) mod 12 twelfths of the rainbow. Neighbors meet at a cut edge. Their hues are 3 twelfths
+    apart where possible. If there are more than 4096 islands, neighbors may have equal hues.
+
+    Parameters
+    ----------
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    islands : (m,) array_like of int
+        The island of each triangle, from 0. The largest island comes first.
+    cuts : (k, 2) array_like of int
+        Vertex pairs.
+    former_islands : (m,) array_like of int, optional
+        The islands that there were before. An island keeps the hue of the one to which most of it belonged, unless a larger
+        neighbor has one that is too near.
+    former_hues : (j,) array_like of int, optional
+        Their hues.
+
+    Returns
+    -------
+    (count,) uint8
+        The hue of each island, from 0 to 11.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a number is out of range.
+    """
+
+def place_islands(
+    before: ArrayLike,
+    after: ArrayLike,
+    triangles: ArrayLike,
+    islands: ArrayLike,
+    areas: ArrayLike,
+    *,
+    taken: ArrayLike = (),
+    aspects: ArrayLike | None = None,
+    straight: ArrayLike | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> NDArray[np.float64]:
+    """Find a place for new islands among parts of a UV map that stay.
+
+    Each island is turned as it was, and gets the nearest free place of its former unit square. Islands for which that
+    square has no room lie to the right of everything.
+
+    Parameters
+    ----------
+    before : (c, 2) array_like of float
+        Each corner's UV in the old map. An island with a UV that is not finite had no place.
+    after : (c, 2) array_like of float
+        Each corner's place now, of any scale, as the image shows it: u is multiplied by the aspect. Finite for the corners
+        of triangles.
+    triangles : (t, 3) array_like of int
+        Corners.
+    islands : (t,) array_like of int
+        The island of each triangle, numbered from 0.
+    areas : (k,) array_like of float
+        The wanted area of each island in the map. 0 keeps its scale.
+    taken : (b, 4) array_like of float, optional
+        Boxes around what stays: low u, low v, high u, high v.
+    aspects : (k,) array_like of float, optional
+        As in `pack_islands`.
+    straight : (k,) array_like of bool, optional
+        Whether an island's sides run along the axes, and stay so.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    (k, 2, 3) float64
+        The map of each island to its place, as `Packing.placements`.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a value is out of range or not finite.
+    Cancelled
+    """
+
 class PlannedWire:
     """One wire of a `SeamPlan`."""
 
