@@ -36,8 +36,8 @@ constexpr double kShortEdge = 12.0;     ///< nobody can point at a shorter edge
 constexpr double kInside = 14.0;        ///< farther from the nearest edge, the cursor is inside a face
 constexpr double kCrease = 6.0;         ///< a face so little before a place hides nothing: the place may be in a crease
 
-constexpr std::size_t kMostCrests = 24;        ///< pieces under one cursor that are tried
-constexpr std::size_t kMostTried = 4;  ///< of the features near the cursor
+constexpr std::size_t kMostCrests = 24;  ///< pieces under one cursor that are tried
+constexpr std::size_t kMostTried = 4;    ///< of the features near the cursor
 constexpr std::size_t kMostNear =
     400;  ///< of vertices or pieces: of more in a far view, nobody can tell which is meant
 constexpr std::size_t kFewEdges = 50000;       ///< with X-ray all are tried; of more, those at the vertices nearby
@@ -266,14 +266,15 @@ struct Picker::Parts::Search {
 
   /// The vertex or edge that is nearest on the screen, however much lies before it.
   std::optional<Picked> through(bool vertices_only) const {
-    // x, y and w of points that are seen within `size` of the middle are below w.
-    Eigen::Matrix<double, 3, 4> test = view.to_clip({0, 1, 3}, Eigen::all);
-    for (int i = 0; i < 2; ++i)
-      test.row(i) = 0.5 * view.size[i] * test.row(i) + (0.5 * view.size[i] - cursor[i]) * test.row(2);
+    // Most points are told apart without a division: near the cursor, the first two numbers are small beside w.
+    Eigen::Matrix<double, 3, 4> test;
+    test << view.to_clip.topRows<2>(), view.to_clip.row(3);
+    for (int i = 0; i < 2; ++i) test.row(i) += (1.0 - 2.0 * cursor[i] / view.size[i]) * test.row(2);
+    const Eigen::Array2d room = 12.0 * kReach * sight.scale / view.size.array();
     std::vector<Near> near, around;
     for (std::int32_t v = 0; index(v) < mesh.points.size(); ++v) {
       const Vector quick = test * mesh.points[v].homogeneous();
-      if (!(std::max(std::abs(quick.x()), std::abs(quick.y())) <= 6.0 * kReach * sight.scale * quick.z())) continue;
+      if (!(quick.head<2>().array().abs() <= room * quick.z()).all()) continue;
       const Vector off = pixel(v) - cursor;
       const double away = std::max(std::abs(off.x()), std::abs(off.y()));  // both are NaN, or none
       if (!reaches(away, 5.0 * kReach) || tables.edges_at[v].empty()) continue;
