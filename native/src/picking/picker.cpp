@@ -7,10 +7,12 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <future>
 #include <iterator>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -81,8 +83,8 @@ struct Projection {
   }
 
   /// The line that a pixel shows: from the near plane to the far plane, without what is clipped away.
-  std::array<Vector, 2> line(const Vector& pixel) const {
-    const double x = 2.0 * pixel.x() / size.x() - 1.0, y = 2.0 * pixel.y() / size.y() - 1.0;
+  std::array<Vector, 2> line(const Vector& at) const {
+    const double x = 2.0 * at.x() / size.x() - 1.0, y = 2.0 * at.y() / size.y() - 1.0;
     Vector near = (from_clip * Eigen::Vector4d(x, y, -1.0, 1.0)).hnormalized();
     Vector far = (from_clip * Eigen::Vector4d(x, y, 1.0, 1.0)).hnormalized();
     for (const Eigen::Vector4d& plane : planes) {
@@ -158,7 +160,7 @@ struct Picker::Parts::Search {
   Vector cursor{sight.cursor.x(), sight.cursor.y(), 0.0};
 
   Vector pixel(std::int32_t vertex) const { return view.pixel(mesh.points[vertex]); }
-  double gap_to(const Vector& pixel) const { return (pixel - cursor).norm(); }
+  double gap_to(const Vector& at) const { return (at - cursor).norm(); }
   double gap_to_edge(const Edge& edge) const { return distance_to_segment(cursor, pixel(edge[0]), pixel(edge[1])); }
   bool reaches(double gap, double reach) const { return gap <= reach * sight.scale; }
   /// In pixels, around the end of an edge of some length.
