@@ -114,7 +114,9 @@ class Picker:
         """
         if session is not None:
             self._follow(session)
-        if (strength is not None and strength is not self._strength) or (preferred and preferred is not self._preferred):
+        if (strength is not None and strength is not self._strength) or (
+            preferred and preferred is not self._preferred
+        ):
             self._strength, self._preferred = strength, preferred
             strengths = () if strength is None else strength
             least = np.quantile(strengths, FEATURE_QUANTILE) if len(strengths) else 0.0
