@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from operator import is_not
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,9 +31,8 @@ REACH = 14.0
 """Pixels beside the mesh in which the library finds it."""
 FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
-_TARGETS: tuple[Literal["SEED", "WIRE", "SEAM"], ...] = ("SEED", "WIRE", "SEAM")
-_SEEDS, _WIRES, _SEAMS, _CRESTS, _CURVES = range(5)
-"""The layers of the library's picker. The first three are those of `_TARGETS`."""
+_SEEDS, _WIRES, _CURVES, _SEAMS, _CRESTS = range(5)
+"""The layers of the library's picker. Those before the seams are empty until they are set."""
 _SEED_REACH, _WIRE_REACH, _SEAM_REACH, _CREST_REACH = 9.0, 6.0, 4.0, 10.0
 """Pixels beside each in which it is found: few for seams, because edges beside them can be picked too."""
 
@@ -42,14 +41,8 @@ class Picker:
     """Finds what is under the cursor on one edit mesh.
 
     In all methods, `matrix` is the object's (4, 4) matrix, which may rotate, scale and shear. `cursor` is in pixels from the region's
-    bottom left, and `scale` is that of the display. With `xray`, what lies behind faces is found too.
-
-    Parameters
-    ----------
-    seams
-        (s, 2) those that no wire runs along.
-    bend
-        Takes the points of a curve on the mesh, (k, 3), to where they are seen on the surface. None: they are seen where they are.
+    bottom left, and `scale` is that of the display. With `xray`, what lies behind faces is found too. `seams`, (s, 2), are those that no
+    wire runs along. `bend` takes the points of a curve on the mesh, (k, 3), to where they are seen, if that is elsewhere.
     """
 
     def __init__(self, arrays: Arrays, seams: ArrayLike = (), bend: Bend | None = None) -> None:
@@ -58,14 +51,12 @@ class Picker:
         self._core: seamwire_core.Picker = native.load().Picker(
             arrays.points, arrays.triangles, arrays.polygons, arrays.edges, arrays.to_object
         )
-        # What the library's picker was told of.
-        self._told: dict[str, tuple[object, ...]] = {}
+        self._told: dict[str, tuple[object, ...]] = {}  # what the library's picker was told of
         self._strength: NDArray[np.float64] | None = None
         self._preferred: frozenset[int] = frozenset()
         self._seeds: tuple[Pick, ...] = ()
         self._wires: tuple[Wire, ...] = ()
         self._curves: Sequence[NDArray[np.float64]] = ()
-        self._set_curves(_CURVES, (), 0.0)
         self.set_seams(seams)
 
     def wait(self) -> None:
@@ -104,27 +95,22 @@ class Picker:
             Of vertices alone, find only those that are meant. Otherwise find the point of the surface under the cursor.
         session
             Whose seeds and wires can be found. Without it, neither these nor seams are found.
-        preferred
-            Vertices that are taken before anything else of the plain mesh if they are as near as features may be.
+        preferred, crests
+            Vertices, and ridges and valleys, that are taken before anything else of the plain mesh nearby.
         strength
-            (n,) how strong the feature is at each vertex. The nearest corner is taken, where three sharp edges meet, and otherwise the
-            strongest feature nearby.
-        crests
-            Ridges and valleys. What lies on one nearby is taken before anything else of the plain mesh.
+            (n,) how strong the feature is at each vertex. The nearest corner is taken, and otherwise the strongest feature nearby.
         """
         if session is not None:
             self._follow(session)
-        if (strength is not None and strength is not self._strength) or (
-            preferred and preferred is not self._preferred
-        ):
+        has_new_strength = strength is not None and strength is not self._strength
+        if has_new_strength or (preferred and preferred is not self._preferred):
             self._strength, self._preferred = strength, preferred
             strengths = () if strength is None else strength
             least = np.quantile(strengths, FEATURE_QUANTILE) if len(strengths) else 0.0
             self._core.set_vertices(strengths, least, list(preferred))
         if crests is not None and self._is_new("crests", crests):
-            owners = crests.faces[crests.pieces]
-            vertices = crests.vertices[crests.pieces[:, None] + (0, 1)]
-            self._core.set_layer(_CRESTS, crests.segments.reshape(-1, 3), owners, _CREST_REACH, vertices)
+            ends, owners = crests.segments.reshape(-1, 3), crests.faces[crests.pieces]
+            self._core.set_layer(_CRESTS, ends, owners, _CREST_REACH, crests.vertices[crests.pieces[:, None] + (0, 1)])
         found = self._core.pick(
             *_seen_by(camera, matrix, cursor),
             scale,
@@ -153,8 +139,7 @@ class Picker:
         if len(curves) != len(self._curves) or any(map(is_not, curves, self._curves)):
             self._curves = curves
             self._set_curves(_CURVES, curves, reach)
-        sight = *_seen_by(camera, matrix, cursor), scale, xray
-        found = self._core.pick(*sight, layers=(_CURVES,), layers_only=True)
+        found = self._core.pick(*_seen_by(camera, matrix, cursor), scale, xray, layers=(_CURVES,), layers_only=True)
         return None if found is None else (found.owner, found.depth)
 
     def seen_along(self, camera: Camera, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
@@ -180,10 +165,9 @@ class Picker:
             wire = self._wires[found.owner] if found.layer == _WIRES else None
             vertices = self._seams[found.owner] if wire is None else np.array(wire.vertices)
             away = (self._arrays.points[vertices] - found.place) @ self._arrays.to_object.T
-            return Snap(int(vertices[np.linalg.norm(away, axis=1).argmin()]), _TARGETS[found.layer], wire)
-        pick: Pick | None = found.pick
-        if pick is None:
-            pick = FacePoint.at(found.place, found.triangle, self._arrays.triangles, self._arrays.points)
+            return Snap(int(vertices[np.linalg.norm(away, axis=1).argmin()]), "SEAM" if wire is None else "WIRE", wire)
+        point = found.place, found.triangle, self._arrays.triangles, self._arrays.points
+        pick: Pick = FacePoint.at(*point) if found.pick is None else found.pick
         return Snap(
             pick,
             "FEATURE" if found.is_feature else "MESH",
