@@ -231,6 +231,17 @@ CornerUvs corner_uvs_from(py::handle value, const std::string& name) {
   return uvs;
 }
 
+Eigen::MatrixXd matrix_from(py::handle value, py::ssize_t columns, const std::string& name) {
+  const PythonCall calling;
+  const py::array array = rows_from(value, columns, "fiu", "real numbers", name).attr("astype")("float64");
+  const Layout from(array);
+  Eigen::MatrixXd to(array.shape(0), columns);
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    to(i / columns, i % columns) = load<double>(from.at(i / columns, i % columns));
+  }
+  return to;
+}
+
 std::size_t count_from(py::handle value, const std::string& name) {
   const auto count = PyNumber_AsSsize_t(value.ptr(), nullptr);  // clamps what is too large
   if (count == -1 && PyErr_Occurred() != nullptr) {

@@ -31,6 +31,7 @@ functions on other threads stop and raise SystemExit.)";
   bind_live_results(module);
   bind_live(module);
   bind_rays(module);
+  bind_picker(module);
   bind_faces(module);
   bind_cut(module);
   bind_flatten(module);

@@ -19,6 +19,7 @@ void bind_edges(py::module_& module);
 void bind_live_results(py::module_& module);
 void bind_live(py::module_& module);
 void bind_rays(py::module_& module);
+void bind_picker(py::module_& module);
 void bind_faces(py::module_& module);
 void bind_cut(py::module_& module);
 void bind_flatten(py::module_& module);

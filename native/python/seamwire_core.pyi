@@ -1677,6 +1677,153 @@ class RayTree:
     def wait(self) -> None:
         """Wait until the tree is built."""
 
+class Picked:
+    """What is seen at a pixel."""
+
+    layer: int
+    """int: the layer that it is in. -1 for the mesh."""
+    owner: int
+    """int: the owner of the piece of a layer."""
+    pick: int | tuple[int, int] | None
+    """int, (int, int) or None: the vertex or the edge. None for a place."""
+    triangle: int
+    """int: the triangle of the place, or the one seen there, or -1."""
+    place: NDArray[np.float64]
+    """(3,) float64: in the coordinates of the points."""
+    depth: float
+    """float: how far a piece or the surface is from the near plane."""
+    is_feature: bool
+    """bool: whether it is a corner, a strong feature or a crest."""
+    crossing: tuple[int, int] | None
+    """(int, int) or None: the edge that crosses the edge at its end nearer to the cursor."""
+    is_close_call: bool
+    """bool: whether one of both edges is too short to point at."""
+    is_inside: bool
+    """bool: whether the cursor is inside a face, away from the edge."""
+
+class Picker:
+    """Finds what is under the cursor on a mesh.
+
+    Threads build its tables. A query before they are built waits for them.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    triangles : (m, 3) array_like of int
+    polygons : (m,) array_like of int
+        The polygon of each triangle. Triangles of a polygon follow one another.
+    edges : (e, 2) array_like of int
+        The edges of the polygons, without diagonals, and edges without a polygon.
+    to_object : (3, 3) array_like of float
+        Takes points to object coordinates.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, a vertex does not exist, or the numbers of triangles and polygons differ.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        polygons: ArrayLike,
+        edges: ArrayLike,
+        to_object: ArrayLike,
+    ) -> None: ...
+    def set_layer(
+        self,
+        number: int,
+        ends: ArrayLike,
+        owners: ArrayLike,
+        reach: float,
+        vertices: ArrayLike = (),
+    ) -> None:
+        """Set the straight pieces of one layer.
+
+        Parameters
+        ----------
+        number : int
+            Of the layer, below 64.
+        ends : (2k, 3) array_like of float
+            Two for each piece, twice the same for a point.
+        owners : (k,) array_like of int
+            The number of each piece's curve. For crest lines, the triangle of each piece.
+        reach : float
+            Pixels beside a piece in which it is found.
+        vertices : (k, 2) array_like of int
+            For crest lines, the vertices nearest to the ends of each piece.
+        """
+    def set_vertices(self, strengths: ArrayLike, least_strength: float, preferred: ArrayLike) -> None:
+        """Set which vertices are features, and which are preferred to others.
+
+        Parameters
+        ----------
+        strengths : (n,) array_like of float
+            How strong the feature is at each vertex, or nothing.
+        least_strength : float
+            Only vertices above it are features.
+        preferred : (k,) array_like of int
+        """
+    def pick(
+        self,
+        perspective: ArrayLike,
+        matrix: ArrayLike,
+        size: tuple[float, float],
+        cursor: tuple[float, float],
+        clip_planes: ArrayLike = (),
+        scale: float = 1.0,
+        xray: bool = False,
+        *,
+        layers: ArrayLike = (),
+        layers_only: bool = False,
+        surface_only: bool = False,
+        vertices_only: bool = False,
+        edges_only: bool = False,
+        anywhere: bool = False,
+        preferred: bool = False,
+        features: bool = False,
+        crests: int = -1,
+    ) -> Picked | None:
+        """Find what a click would take.
+
+        Parameters
+        ----------
+        perspective, matrix : (4, 4) array_like of float
+            Take world coordinates to clip space, and object coordinates to world coordinates.
+        size, cursor : (float, float)
+            The size of the picture, and a place in it from the bottom left, in pixels.
+        clip_planes : (k, 4) array_like of float
+            Nothing on the negative side of a plane is shown.
+        scale : float
+            Of the display. Distances in pixels are multiplied by it.
+        xray : bool
+            Whether to find what lies behind faces too.
+        layers : (k,) array_like of int
+            Layers that are found before the mesh, in this order.
+        layers_only, surface_only : bool
+            Find only these, or only the point of the surface.
+        vertices_only, edges_only : bool
+            Of the plain mesh, find vertices alone, or edges with the edge that crosses them.
+        anywhere : bool
+            Find the point of the surface if no vertex is meant.
+        preferred, features : bool
+            Find preferred vertices, or corners of sharp edges and otherwise the strongest feature nearby.
+        crests : int
+            The layer of crest lines, or -1.
+
+        Returns
+        -------
+        Picked or None
+
+        Raises
+        ------
+        ValueError
+            If what was set does not belong to the mesh.
+        """
+    def wait(self) -> None:
+        """Wait until the tables are built."""
+
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Find the segments into which cuts along edges divide a surface.
 
