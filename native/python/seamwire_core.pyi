@@ -1638,6 +1638,64 @@ class NearestPoints:
         Cancelled
         """
 
+def nearest_vertices(points: ArrayLike, places: ArrayLike, reach: float | ArrayLike) -> NDArray[np.int32]:
+    """Find the nearest vertex of each place, within a distance.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        The vertices. Vertices that are not finite are never found.
+    places : (k, 3) array_like of float
+        A place that is not finite has no nearest vertex.
+    reach : float or (k,) array_like of float
+        How far away a vertex may be: one distance, or one for each place.
+
+    Returns
+    -------
+    (k,) int32
+        The vertex, usually the first of several at the same distance, or -1.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or there are not as many distances as places.
+    """
+
+def mirror_partners(
+    points: ArrayLike,
+    axes: ArrayLike,
+    edges: ArrayLike | None = None,
+    triangles: ArrayLike | None = None,
+) -> NDArray[np.int32]:
+    """Find the vertex that is the mirror image of each vertex.
+
+    Partners are one to one: each vertex is the partner of its partner. By place, each is the nearest to the mirror image of
+    the other. Vertices in one place have different partners.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        The vertices. Vertices that are not finite have no partners.
+    axes : (a,) array_like of int
+        The coordinates that change their sign: 0, 1 or 2.
+    edges : (e, 2) array_like of int, optional
+        The edges of the mesh. A vertex may be as far from its partner's image as half of (sum of 1 / l^2)^(-1/2), over the
+        lengths l of its edges. None: as far as 2e-5.
+    triangles : (m, 3) array_like of int, optional
+        Triangles with one orientation. If given, partners are grown over the polygons that `edges` bound, from edges whose
+        ends have partners by place. This finds the partners of a mesh in a pose.
+
+    Returns
+    -------
+    (n,) int32
+        The partner of each vertex, or -1.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a vertex or an axis is out of range.
+    """
+
 class RayTree:
     """Finds the first triangle that a ray meets, from either side.
 

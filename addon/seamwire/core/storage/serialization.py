@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...terms.choices import ALONG, DEFAULT_FINISH, FINISHES
+from ..base import native
 from ..base.messages import Refused
-from ..base.nearest_vertices import NearestVertices
 from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
 from ..network.wires import FOLLOWS, LOOP_KINDS, Wire
@@ -480,5 +480,5 @@ def _matched(
         return numbers
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = NearestVertices(points).find(places[~stayed], near)
+        mapped[~stayed] = native.load().nearest_vertices(points, places[~stayed], near)
     return mapped
