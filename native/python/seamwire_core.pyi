@@ -1124,6 +1124,135 @@ def fit_chain(
     Cancelled
     """
 
+class LoopOffer:
+    """A chain of edges that a click on an edge may take."""
+
+    kind: Literal["closed", "past", "strip", "whole", "flat", "crossing"]
+    """{'closed', 'past', 'strip', 'whole', 'flat', 'crossing'}: the cheapest closed chain in the metric, the straight way past poles, the edge loop up to kept edges and without them, the border of a part or of a flat face, and a loop through the crossing edge."""
+    vertices: NDArray[np.int32]
+    """(k,) int32: the vertices in order. A closed chain does not repeat its first vertex."""
+    closed: bool
+    """bool: whether an edge joins the last vertex to the first."""
+    through: tuple[int, int]
+    """(int, int): the picked edge, or the edge of the chain that stands for it. The smaller vertex comes first."""
+    beside: tuple[LoopOffer, ...]
+    """tuple of LoopOffer: other chains that the same click takes."""
+
+class LoopOffers:
+    """Finds the loops that a click on an edge may take.
+
+    They are closed chains in a metric, edge loops, straight ways past poles, and borders of parts and flat faces.
+
+    Parameters
+    ----------
+    surface : Surface
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    Cancelled
+
+    References
+    ----------
+    docs/method/edges.md.
+    """
+
+    def __init__(self, surface: Surface, progress: Callable[[float], bool | None] | None = None) -> None: ...
+    def add_parts(self, labels: ArrayLike) -> None:
+        """Add one way to divide the surface into parts.
+
+        The borders of the first way come first. No other thread may use the object meanwhile.
+
+        Parameters
+        ----------
+        labels : (m,) array_like of int
+            The part of each triangle, as from `PartFinder.find`.
+
+        Raises
+        ------
+        ValueError
+            If there are not as many labels as triangles, or a label is negative or not below their number.
+        """
+    def find(
+        self,
+        edge: tuple[int, int],
+        loop: ArrayLike = (),
+        corners: int = 0,
+        *,
+        kept: ArrayLike = (),
+        plane: ArrayLike = (),
+        last: str | None = None,
+        triangle: int | None = None,
+        inside: bool = False,
+        crossing: tuple[int, int] | None = None,
+        crossing_loop: ArrayLike = (),
+        crossing_corners: int = 0,
+        close_call: bool = False,
+        shown: ArrayLike = (),
+        chosen: bool = False,
+    ) -> list[LoopOffer]:
+        """Find what a click on an edge may take.
+
+        Parameters
+        ----------
+        edge : (int, int)
+            The edge under the cursor.
+        loop : (k,) array_like of int
+            The cheapest closed chain through the edge, as from `shortest_cycle`. It may be empty.
+        corners : int
+            How often that chain turns off, as in `LiveLoop.corners`.
+        kept : (e, 2) array_like of int
+            The edges of seams and wires. Straight ways end at their vertices.
+        plane : (p,) array_like of int
+            Vertices where straight ways end unless both ends of their edge are among these, such as those in a mirror plane.
+        last : str, optional
+            The kind of the loop that was taken last, as in `LoopOffer.kind`.
+        triangle : int, optional
+            The triangle under the cursor.
+        inside : bool
+            Whether the cursor is inside a face. The borders of the part there come first.
+        crossing : (int, int), optional
+            The edge that crosses the picked edge at the cursor.
+        crossing_loop : (k,) array_like of int
+        crossing_corners : int
+            As `loop` and `corners`, of the crossing edge.
+        close_call : bool
+            Whether edges are so short that the crossing edge may be meant.
+        shown : (s,) array_like of int
+            The loop that was shown last. A closed loop repeats its first vertex. In a close call it decides between loops that are
+            as likely and as long.
+        chosen : bool
+            Whether the user asked for the loop that was shown last. Then it decides before all else.
+
+        Returns
+        -------
+        list of LoopOffer
+            No two run along the same edges. The likeliest comes first.
+
+        Raises
+        ------
+        ValueError
+            If an edge is not part of the surface, or a vertex or a triangle is out of range.
+        """
+    def borders(self, edge: tuple[int, int]) -> list[NDArray[np.int32]]:
+        """Find the borders between parts that lead through an edge.
+
+        Parameters
+        ----------
+        edge : (int, int)
+
+        Returns
+        -------
+        list of (k,) int32
+            Closed chains, which do not repeat their first vertices: for each way to divide the surface, the shortest first.
+
+        Raises
+        ------
+        ValueError
+            If the edge is not part of the surface.
+        """
+
 class LiveCandidate:
     """One of the wires from the seed to a target."""
 
@@ -1177,6 +1306,8 @@ class LiveLoop:
     """(k,) int32: the vertices, without repeating the first. Empty if there is no such chain, or not yet."""
     length: float
     """float: the length in its metric plus the cost of turning."""
+    corners: int
+    """int: how often the chain turns off by 60 degrees or more, although straight ways go on there."""
     final: bool
     """bool: False while it is still being computed."""
 

@@ -11,7 +11,6 @@ import numpy as np
 from ..base.geometry import length_of, nearest_on_segments
 from ..network.picks import place_of, undirected, vertices_of
 from ..network.wires import Wire
-from ..offers.edge_loops import corners
 from ..solver.solver import by_number, for_live
 
 if TYPE_CHECKING:
@@ -119,7 +118,7 @@ class RingSearch:
         for edge in self._edges_at(chain, middle):
             loop = yield from _final(lambda edge=edge: live.loop(edge))
             around = tuple(int(vertex) for vertex in loop.vertices)
-            if len(around) > _LEAST_BACK and not corners(live, around, self._points):
+            if len(around) > _LEAST_BACK and not loop.corners:
                 rings.append(around)
         return min(rings, key=lambda around: length_of(self._points[[*around, around[0]]]), default=None)
 
