@@ -18,6 +18,7 @@
 #include "held.hpp"
 #include "picks.hpp"
 #include "rooms.hpp"
+#include "seamwire/edges/seam_gaps.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
 
@@ -76,13 +77,15 @@ std::vector<LoopOffer> find_offers(const LoopOffersObject& object, const py::obj
   return without_gil([&] { return object.offers.find(query); });
 }
 
+py::list chains_of(std::vector<std::vector<std::int32_t>> chains) {
+  py::list found;
+  for (auto& chain : chains) found.append(handed_over(std::move(chain)));
+  return found;
+}
+
 py::list borders_of(const LoopOffersObject& object, const py::object& edge) {
   const Edge through = edge_from(edge, object.vertex_count, "edge");
-  py::list found;
-  for (auto& border : without_gil([&] { return object.offers.borders(through); })) {
-    found.append(handed_over(std::move(border)));
-  }
-  return found;
+  return chains_of(without_gil([&] { return object.offers.borders(through); }));
 }
 
 void bind_loop_offer(py::module_& module) {
@@ -107,10 +110,94 @@ void bind_loop_offer(py::module_& module) {
       });
 }
 
+py::list chains_along(const py::object& edges, const py::object& ends) {
+  const std::vector<Edge> own = edges_from(edges, "edges");
+  const std::vector<std::int32_t> stops = numbers_from(ends, "ends");
+  return chains_of(without_gil([&] { return edge_chains(own, stops); }));
+}
+
+py::list gaps_of(const SurfaceObject& surface, const py::object& seams, double longest,
+                 std::optional<double> longest_of_several, const py::object& most_looked_at, const py::object& meant,
+                 const py::object& partly_hidden) {
+  const std::vector<Edge> cuts = edges_from(seams, "seams"), hidden = edges_from(partly_hidden, "partly_hidden");
+  const std::vector<std::int32_t> ends = numbers_from(meant, "meant");
+  const SeamGapOptions options{.longest = longest,
+                               .longest_of_several = longest_of_several.value_or(longest),
+                               .most_looked_at = count_from(most_looked_at, "most_looked_at"),
+                               .meant = ends,
+                               .partly_hidden = hidden};
+  py::list found;
+  for (SeamGap& gap : Watch(py::none()).run([&](const Task& task) {
+         return find_gaps(*surface.surface, *surface.context.edge_adjacency(task), cuts, options, task);
+       })) {
+    found.append(py::make_tuple(handed_over(std::move(gap.path)), gap.length));
+  }
+  return found;
+}
+
+void bind_seam_gaps(py::module_& module) {
+  module.def("edge_chains", &chains_along, py::arg("edges"), py::arg("ends") = py::tuple(),
+             R"(Join edges to chains, which end where other than two edges meet, and at some vertices.
+
+Parameters
+----------
+edges : (k, 2) array_like of int
+    Pairs of different vertices.
+ends : (e,) array_like of int
+    Vertices where chains end as well.
+
+Returns
+-------
+list of (c,) int32
+    The vertices of each chain. A closed chain ends with its first vertex. Open chains come first.
+
+Raises
+------
+ValueError
+    If a vertex is negative, or an edge joins a vertex to itself.
+)");
+  module.def("find_gaps", &gaps_of, py::arg("surface"), py::arg("seams"), py::arg("longest") = 0.5,
+             py::arg("longest_of_several") = py::none(), py::arg("most_looked_at") = 50'000,
+             py::arg("meant") = py::tuple(), py::arg("partly_hidden") = py::tuple(),
+             R"(Find where seams end just before they meet another seam or the boundary.
+
+A gap leads from the end of a seam to the nearest vertex of a seam or of the boundary, unless these lead there within
+four times that distance. Two ends that face each other have one gap.
+
+Parameters
+----------
+surface : Surface
+seams : (k, 2) array_like of int
+    Vertex pairs. Pairs that are not real edges are ignored.
+longest : float
+    The longest gap, in lengths of the seam that ends there, up to where it meets other seams.
+longest_of_several : float, optional
+    The same for gaps of more than one edge. None: as long as gaps of one edge.
+most_looked_at : int
+    How many vertices around an end are looked at.
+meant : (m,) array_like of int
+    Vertices where seams end on purpose.
+partly_hidden : (h, 2) array_like of int
+    Edges where the mesh goes on, though no triangle of the surface does.
+
+Returns
+-------
+list of ((p,) int32, float)
+    The vertices from the end of the seam along edges to what it nearly meets, and the length in the caller's unit. The
+    shortest gap comes first.
+
+Raises
+------
+ValueError
+    If a vertex is out of range.
+)");
+}
+
 }  // namespace
 
 void bind_loop_offers(py::module_& module) {
   bind_loop_offer(module);
+  bind_seam_gaps(module);
   py::class_<LoopOffersObject, Held<LoopOffersObject>>(module, "LoopOffers",
                                                        R"(Finds the loops that a click on an edge may take.
 

@@ -1138,6 +1138,69 @@ class LoopOffer:
     beside: tuple[LoopOffer, ...]
     """tuple of LoopOffer: other chains that the same click takes."""
 
+def edge_chains(edges: ArrayLike, ends: ArrayLike = ()) -> list[NDArray[np.int32]]:
+    """Join edges to chains, which end where other than two edges meet, and at some vertices.
+
+    Parameters
+    ----------
+    edges : (k, 2) array_like of int
+        Pairs of different vertices.
+    ends : (e,) array_like of int
+        Vertices where chains end as well.
+
+    Returns
+    -------
+    list of (c,) int32
+        The vertices of each chain. A closed chain ends with its first vertex. Open chains come first.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is negative, or an edge joins a vertex to itself.
+    """
+
+def find_gaps(
+    surface: Surface,
+    seams: ArrayLike,
+    longest: float = 0.5,
+    longest_of_several: float | None = None,
+    most_looked_at: int = 50000,
+    meant: ArrayLike = (),
+    partly_hidden: ArrayLike = (),
+) -> list[tuple[NDArray[np.int32], float]]:
+    """Find where seams end just before they meet another seam or the boundary.
+
+    A gap leads from the end of a seam to the nearest vertex of a seam or of the boundary, unless these lead there within
+    four times that distance. Two ends that face each other have one gap.
+
+    Parameters
+    ----------
+    surface : Surface
+    seams : (k, 2) array_like of int
+        Vertex pairs. Pairs that are not real edges are ignored.
+    longest : float
+        The longest gap, in lengths of the seam that ends there, up to where it meets other seams.
+    longest_of_several : float, optional
+        The same for gaps of more than one edge. None: as long as gaps of one edge.
+    most_looked_at : int
+        How many vertices around an end are looked at.
+    meant : (m,) array_like of int
+        Vertices where seams end on purpose.
+    partly_hidden : (h, 2) array_like of int
+        Edges where the mesh goes on, though no triangle of the surface does.
+
+    Returns
+    -------
+    list of ((p,) int32, float)
+        The vertices from the end of the seam along edges to what it nearly meets, and the length in the caller's unit. The
+        shortest gap comes first.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is out of range.
+    """
+
 class LoopOffers:
     """Finds the loops that a click on an edge may take.
 
