@@ -21,6 +21,9 @@ namespace seamwire {
 using namespace detail;
 
 struct LoopOffers::Impl {
+  Impl(std::shared_ptr<const Surface> of, std::shared_ptr<const EdgeAdjacency> with)
+      : surface(std::move(of)), adjacency(std::move(with)), borders(*surface, *adjacency) {}
+
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const EdgeAdjacency> adjacency;
   PartBorders borders;
@@ -163,11 +166,11 @@ class OfferSearch {
     std::optional<LoopOffer> best = way(edge);
     if (!best) return best;
     // Of ways of the same length, that of the edge itself counts.
-    const double length = length_of(*best);
+    const double length = length_of(points_, edges_of(*best));
     double least = 1.0;
     for (const Edge& other : tubes_.beside(own)) {
       std::optional<LoopOffer> beside = way(adjacency_.checked(other, "edge"));
-      const double part = beside ? std::round(1e6 * length_of(*beside) / length) / 1e6 : kInfinity;
+      const double part = beside ? std::round(1e6 * length_of(points_, edges_of(*beside)) / length) / 1e6 : kInfinity;
       if (part >= least) continue;
       least = part;
       best = std::move(beside);
@@ -247,7 +250,8 @@ class OfferSearch {
     const bool follows = query_.shown.size() > 1 && follows_shown();
     if (query_.is_chosen && query_.shown.size() > 1) return follows;
     if (own_cost != crossing_cost) return crossing_cost < own_cost;
-    const double own_length = length_of(own), crossing_length = length_of(crossing);
+    const double own_length = length_of(points_, edges_of(own)),
+                 crossing_length = length_of(points_, edges_of(crossing));
     if (std::min(own_length, crossing_length) < kMuchShorter * std::max(own_length, crossing_length)) {
       return crossing_length < own_length;
     }
@@ -332,12 +336,6 @@ class OfferSearch {
 
   Vector middle_of(const Edge& edge) const { return 0.5 * (points_[edge[0]] + points_[edge[1]]); }
 
-  double length_of(const LoopOffer& offer) const {
-    double length = 0.0;
-    for (const auto& [a, b] : sides_of(offer.vertices, offer.closed)) length += (points_[b] - points_[a]).norm();
-    return length;
-  }
-
   const std::vector<Vector>& points_;
   const EdgeAdjacency& adjacency_;
   const Surface& surface_;
@@ -355,9 +353,7 @@ class OfferSearch {
 
 LoopOffers::LoopOffers(std::shared_ptr<const Surface> surface, std::shared_ptr<const EdgeAdjacency> adjacency) {
   adjacency->check_size(*surface);
-  const Surface& own = *surface;
-  const EdgeAdjacency& edges = *adjacency;
-  impl_ = std::make_shared<Impl>(std::move(surface), std::move(adjacency), PartBorders(own, edges));
+  impl_ = std::make_shared<Impl>(std::move(surface), std::move(adjacency));
 }
 
 void LoopOffers::add_parts(std::span<const std::int32_t> labels) { impl_->borders.add_parts(labels); }

@@ -75,6 +75,12 @@ std::vector<Edge> sides_of(std::span<const std::int32_t> chain, bool closed) {
   return sides;
 }
 
+double length_of(const std::vector<Vector>& points, std::span<const Edge> edges) {
+  double length = 0.0;
+  for (const auto& [a, b] : edges) length += (points[b] - points[a]).norm();
+  return length;
+}
+
 PartBorders::PartBorders(const Surface& surface, const EdgeAdjacency& adjacency)
     : surface_(surface), adjacency_(adjacency), mesh_(corner_fans(surface)) {
   for (const Triangle& t : mesh_.triangles) {
@@ -126,7 +132,7 @@ std::vector<VertexChain> PartBorders::borders(const Edge& edge) const {
         if (std::ranges::find(around, own) != around.end()) found.push_back(std::move(chain));
       }
     }
-    std::ranges::stable_sort(std::span(found).subspan(begin), {}, &VertexChain::size);
+    std::ranges::stable_sort(std::span(found).subspan(begin), {}, [](const auto& chain) { return chain.size(); });
   }
   return found;
 }
@@ -152,11 +158,11 @@ VertexChain PartBorders::flat_face(std::int32_t triangle) const {
   VertexChain longest;
   double most = -1.0;
   for (const Numbers& border : region_of(plane.numbers, [&](std::int32_t t) { return plane.contains[t]; }).borders) {
-    double length = 0.0;
-    for (const std::int32_t h : border) length += (surface_.points()[tip(h)] - surface_.points()[tail(h)]).norm();
+    VertexChain chain = chain_of(border);
+    const double length = length_of(surface_.points(), sides_of(chain, true));
     if (length <= most) continue;
     most = length;
-    longest = chain_of(border);
+    longest = std::move(chain);
   }
   return is_simple(longest) ? longest : VertexChain();
 }
@@ -164,9 +170,7 @@ VertexChain PartBorders::flat_face(std::int32_t triangle) const {
 bool PartBorders::is_hairpin(std::span<const std::int32_t> chain) const {
   const std::vector<double> turned = turns(chain);
   std::vector<double> lengths;
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    lengths.push_back((surface_.points()[chain[(i + 1) % chain.size()]] - surface_.points()[chain[i]]).norm());
-  }
+  for (const Edge& side : sides_of(chain, true)) lengths.push_back(length_of(surface_.points(), {&side, 1}));
   const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   const bool is_tiny = chain.size() <= kFewEdges && length * length < kTiny * area_;
   return (is_tiny && std::abs(std::accumulate(turned.begin(), turned.end(), 0.0)) >= kCircle) ||
@@ -283,9 +287,9 @@ std::int32_t PartBorders::half_edge(std::int32_t from, std::int32_t to) const {
 
 Numbers PartBorders::half_edges_of(const Edge& edge) const {
   Numbers found;
-  for (const auto& [from, to] : {edge, Edge{edge[1], edge[0]}}) {
-    for_each_leaving(from, [&](std::int32_t h) {
-      if (tip(h) == to) found.push_back(h);
+  for (const Edge& way : {edge, Edge{edge[1], edge[0]}}) {
+    for_each_leaving(way[0], [&](std::int32_t h) {
+      if (tip(h) == way[1]) found.push_back(h);
     });
   }
   std::ranges::sort(found);

@@ -21,6 +21,7 @@ using VertexChain = Numbers;
 
 /// The edges of a chain, each with the smaller vertex first.
 std::vector<Edge> sides_of(std::span<const std::int32_t> chain, bool closed);
+double length_of(const std::vector<Vector>& points, std::span<const Edge> edges);
 
 /// Finds the borders of parts and of flat faces, and closed chains that come back beside themselves.
 ///

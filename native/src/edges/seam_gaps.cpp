@@ -12,6 +12,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "edges/edge_adjacency.hpp"
+#include "edges/part_borders.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/real_edges.hpp"
 
@@ -138,10 +139,7 @@ std::vector<SeamGap> find_gaps(const Surface& surface, const EdgeAdjacency& adja
   std::vector<SeamGap> found;
   std::size_t count = 0;
   for (const std::vector<std::int32_t>& chain : edge_chains(own)) {
-    double length = 0.0;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      length += (surface.points()[chain[i]] - surface.points()[chain[i - 1]]).norm();
-    }
+    const double length = length_of(surface.points(), sides_of(chain, false));
     for (const std::int32_t end : {chain.front(), chain.back()}) {
       poll.at(count++);
       if (is_left_out[end] || cuts_at(end) != 1) continue;

@@ -144,13 +144,13 @@ class Growth {
 
  private:
   using Pair = std::pair<std::int32_t, std::int32_t>;  // a half-edge and its image, or -1
+  /// Where faces meet wrongly, a walk around a polygon may not come to an end.
+  static constexpr std::size_t kMostSides = 4096;
 
   /// The half-edge beside another one in its polygon, past the diagonals; -1 where the polygon is not closed.
   template <class Step>
   std::int32_t beside(std::int32_t h, const Step& step) const {
-    // Where faces meet wrongly, a walk around a polygon may not come to an end.
-    constexpr int kMostSides = 4096;
-    for (int i = 0; i < kMostSides && h >= 0; ++i) {
+    for (std::size_t i = 0; i < kMostSides && h >= 0; ++i) {
       h = step(h);
       if (is_real_[h]) return h;
       h = mesh_.twins[h];
@@ -165,7 +165,7 @@ class Growth {
     if (side_counts_[h] != 0 || !is_real_[h]) return;
     std::vector<std::int32_t> around{h};
     for (std::int32_t at = following(h); at != h; at = following(at)) {
-      if (at < 0 || around.size() > sides_.size()) return;
+      if (at < 0 || around.size() == kMostSides) return;
       around.push_back(at);
     }
     for (const std::int32_t side : around) side_counts_[side] = static_cast<std::int32_t>(around.size());
