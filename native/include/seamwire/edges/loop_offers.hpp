@@ -13,7 +13,7 @@
 
 namespace seamwire {
 
-/// What a chain through an edge is.
+/// The kinds of chains through an edge.
 enum class LoopKind : std::uint8_t {
   kClosed,    ///< the cheapest closed chain in the metric
   kPast,      ///< straight on both ways, past poles
@@ -39,7 +39,7 @@ struct LoopThrough {
   std::int32_t corners = 0;                ///< count_corners() of the chain
 };
 
-/// What is asked of LoopOffers.
+/// A question for LoopOffers.
 struct LoopQuery {
   LoopThrough picked;                     ///< the edge under the cursor
   std::optional<LoopThrough> crossing;    ///< the edge that crosses it at the cursor

@@ -40,8 +40,8 @@ struct SeamGapOptions {
 
 /// Find the gaps of seams.
 ///
-/// A gap leads from the end of a cut to the nearest vertex of a cut or of the boundary that is not reached along cuts
-/// and the boundary within four times that distance. Two ends that face each other have one gap.
+/// A gap leads from the end of a cut to the nearest vertex of a cut or of the boundary. If cuts and the boundary lead
+/// there within four times that distance, there is no gap. Two ends that face each other have one gap.
 ///
 /// \param surface the surface
 /// \param adjacency its adjacency

@@ -14,7 +14,7 @@
 
 namespace seamwire {
 
-/// Find the nearest vertex of each place, within a distance of its own.
+/// Find the nearest vertex of each place, within a separate distance for each.
 ///
 /// \param points the vertices. Vertices with a coordinate that is not finite, or not below 1e100, are never found.
 /// \param places the places. Such places have no nearest vertex.
