@@ -28,6 +28,7 @@ functions on other threads stop and raise SystemExit.)";
   bind_wires(module);
   bind_geodesics(module);
   bind_edges(module);
+  bind_loop_offers(module);
   bind_live_results(module);
   bind_live(module);
   bind_rays(module);

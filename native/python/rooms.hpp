@@ -16,6 +16,7 @@ void bind_embedding(py::module_& module);
 void bind_wires(py::module_& module);
 void bind_geodesics(py::module_& module);
 void bind_edges(py::module_& module);
+void bind_loop_offers(py::module_& module);
 void bind_live_results(py::module_& module);
 void bind_live(py::module_& module);
 void bind_rays(py::module_& module);

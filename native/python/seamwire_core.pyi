@@ -1124,6 +1124,198 @@ def fit_chain(
     Cancelled
     """
 
+class LoopOffer:
+    """A chain of edges that a click on an edge may take."""
+
+    kind: Literal["closed", "past", "strip", "whole", "flat", "crossing"]
+    """{'closed', 'past', 'strip', 'whole', 'flat', 'crossing'}: the cheapest closed chain in the metric, the straight way past poles, the edge loop up to kept edges and without them, the border of a part or of a flat face, and a loop through the crossing edge."""
+    vertices: NDArray[np.int32]
+    """(k,) int32: the vertices in order. A closed chain does not repeat its first vertex."""
+    closed: bool
+    """bool: whether an edge joins the last vertex to the first."""
+    through: tuple[int, int]
+    """(int, int): the picked edge, or the edge of the chain that stands for it. The smaller vertex comes first."""
+    beside: tuple[LoopOffer, ...]
+    """tuple of LoopOffer: other chains that the same click takes."""
+
+def edge_chains(edges: ArrayLike, ends: ArrayLike = ()) -> list[NDArray[np.int32]]:
+    """Join edges to chains, which end where other than two edges meet, and at some vertices.
+
+    Parameters
+    ----------
+    edges : (k, 2) array_like of int
+        Pairs of different vertices.
+    ends : (e,) array_like of int
+        Vertices where chains end as well.
+
+    Returns
+    -------
+    list of (c,) int32
+        The vertices of each chain. A closed chain ends with its first vertex. Open chains come first.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is negative, or an edge joins a vertex to itself.
+    """
+
+def find_gaps(
+    surface: Surface,
+    seams: ArrayLike,
+    longest: float = 0.5,
+    longest_of_several: float | None = None,
+    most_looked_at: int = 50000,
+    meant: ArrayLike = (),
+    partly_hidden: ArrayLike = (),
+) -> list[tuple[NDArray[np.int32], float]]:
+    """Find where seams end just before they meet another seam or the boundary.
+
+    A gap leads from the end of a seam to the nearest vertex of a seam or of the boundary, unless these lead there within
+    four times that distance. Two ends that face each other have one gap.
+
+    Parameters
+    ----------
+    surface : Surface
+    seams : (k, 2) array_like of int
+        Vertex pairs. Pairs that are not real edges are ignored.
+    longest : float
+        The longest gap, in lengths of the seam that ends there, up to where it meets other seams.
+    longest_of_several : float, optional
+        The same for gaps of more than one edge. None: as long as gaps of one edge.
+    most_looked_at : int
+        How many vertices around an end are looked at.
+    meant : (m,) array_like of int
+        Vertices where seams end on purpose.
+    partly_hidden : (h, 2) array_like of int
+        Edges where the mesh goes on, though no triangle of the surface does.
+
+    Returns
+    -------
+    list of ((p,) int32, float)
+        The vertices from the end of the seam along edges to what it nearly meets, and the length in the caller's unit. The
+        shortest gap comes first.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is out of range.
+    """
+
+class LoopOffers:
+    """Finds the loops that a click on an edge may take.
+
+    They are closed chains in a metric, edge loops, straight ways past poles, and borders of parts and flat faces.
+
+    Parameters
+    ----------
+    surface : Surface
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    Cancelled
+
+    References
+    ----------
+    docs/method/edges.md.
+    """
+
+    def __init__(self, surface: Surface, progress: Callable[[float], bool | None] | None = None) -> None: ...
+    def add_parts(self, labels: ArrayLike) -> None:
+        """Add one way to divide the surface into parts.
+
+        The borders of the first way come first. No other thread may use the object meanwhile.
+
+        Parameters
+        ----------
+        labels : (m,) array_like of int
+            The part of each triangle, as from `PartFinder.find`.
+
+        Raises
+        ------
+        ValueError
+            If there are not as many labels as triangles, or a label is negative or not below their number.
+        """
+    def find(
+        self,
+        edge: tuple[int, int],
+        loop: ArrayLike = (),
+        corners: int = 0,
+        *,
+        kept: ArrayLike = (),
+        plane: ArrayLike = (),
+        last: str | None = None,
+        triangle: int | None = None,
+        inside: bool = False,
+        crossing: tuple[int, int] | None = None,
+        crossing_loop: ArrayLike = (),
+        crossing_corners: int = 0,
+        close_call: bool = False,
+        shown: ArrayLike = (),
+        chosen: bool = False,
+    ) -> list[LoopOffer]:
+        """Find what a click on an edge may take.
+
+        Parameters
+        ----------
+        edge : (int, int)
+            The edge under the cursor.
+        loop : (k,) array_like of int
+            The cheapest closed chain through the edge, as from `shortest_cycle`. It may be empty.
+        corners : int
+            How often that chain turns off, as in `LiveLoop.corners`.
+        kept : (e, 2) array_like of int
+            The edges of seams and wires. Straight ways end at their vertices.
+        plane : (p,) array_like of int
+            Vertices where straight ways end unless both ends of their edge are among these, such as those in a mirror plane.
+        last : str, optional
+            The kind of the loop that was taken last, as in `LoopOffer.kind`.
+        triangle : int, optional
+            The triangle under the cursor.
+        inside : bool
+            Whether the cursor is inside a face. The borders of the part there come first.
+        crossing : (int, int), optional
+            The edge that crosses the picked edge at the cursor.
+        crossing_loop : (k,) array_like of int
+        crossing_corners : int
+            As `loop` and `corners`, of the crossing edge.
+        close_call : bool
+            Whether edges are so short that the crossing edge may be meant.
+        shown : (s,) array_like of int
+            The loop that was shown last. A closed loop repeats its first vertex. In a close call it decides between loops that are
+            as likely and as long.
+        chosen : bool
+            Whether the user asked for the loop that was shown last. Then it decides before all else.
+
+        Returns
+        -------
+        list of LoopOffer
+            No two run along the same edges. The likeliest comes first.
+
+        Raises
+        ------
+        ValueError
+            If an edge is not part of the surface, or a vertex or a triangle is out of range.
+        """
+    def borders(self, edge: tuple[int, int]) -> list[NDArray[np.int32]]:
+        """Find the borders between parts that lead through an edge.
+
+        Parameters
+        ----------
+        edge : (int, int)
+
+        Returns
+        -------
+        list of (k,) int32
+            Closed chains, which do not repeat their first vertices: for each way to divide the surface, the shortest first.
+
+        Raises
+        ------
+        ValueError
+            If the edge is not part of the surface.
+        """
+
 class LiveCandidate:
     """One of the wires from the seed to a target."""
 
@@ -1177,6 +1369,8 @@ class LiveLoop:
     """(k,) int32: the vertices, without repeating the first. Empty if there is no such chain, or not yet."""
     length: float
     """float: the length in its metric plus the cost of turning."""
+    corners: int
+    """int: how often the chain turns off by 60 degrees or more, although straight ways go on there."""
     final: bool
     """bool: False while it is still being computed."""
 
@@ -1637,6 +1831,64 @@ class NearestPoints:
             If there are not as many normals as places, or a coordinate is not finite.
         Cancelled
         """
+
+def nearest_vertices(points: ArrayLike, places: ArrayLike, reach: float | ArrayLike) -> NDArray[np.int32]:
+    """Find the nearest vertex of each place, within a distance.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        The vertices. Vertices that are not finite are never found.
+    places : (k, 3) array_like of float
+        A place that is not finite has no nearest vertex.
+    reach : float or (k,) array_like of float
+        How far away a vertex may be: one distance, or one for each place.
+
+    Returns
+    -------
+    (k,) int32
+        The vertex, usually the first of several at the same distance, or -1.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or there are not as many distances as places.
+    """
+
+def mirror_partners(
+    points: ArrayLike,
+    axes: ArrayLike,
+    edges: ArrayLike | None = None,
+    triangles: ArrayLike | None = None,
+) -> NDArray[np.int32]:
+    """Find the vertex that is the mirror image of each vertex.
+
+    Partners are one to one: each vertex is the partner of its partner. By place, each is the nearest to the mirror image of
+    the other. Vertices in one place have different partners.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        The vertices. Vertices that are not finite have no partners.
+    axes : (a,) array_like of int
+        The coordinates that change their sign: 0, 1 or 2.
+    edges : (e, 2) array_like of int, optional
+        The edges of the mesh. A vertex may be as far from its partner's image as half of (sum of 1 / l^2)^(-1/2), over the
+        lengths l of its edges. None: as far as 2e-5.
+    triangles : (m, 3) array_like of int, optional
+        Triangles with one orientation. If given, partners are grown over the polygons that `edges` bound, from edges whose
+        ends have partners by place. This finds the partners of a mesh in a pose.
+
+    Returns
+    -------
+    (n,) int32
+        The partner of each vertex, or -1.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a vertex or an axis is out of range.
+    """
 
 class RayTree:
     """Finds the first triangle that a ray meets, from either side.

@@ -151,7 +151,6 @@ class ObjectView:
         self.mesh = ObjectSession(obj, chosen.snapshot(settings, obj.data))
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
-        gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
         closed = self._closed = threading.Event()
 
@@ -159,9 +158,10 @@ class ObjectView:
             return not closed.is_set()
 
         segments = partial(make.face_segments, progress=goes_on)
+        self._surface = partial(make.wait, goes_on)
+        gaps = GapFinder(self._surface, arrays.partly_hidden)
         self._islands = IslandMaker(arrays.triangles, segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
-        self._surface = partial(make.wait, goes_on)
         self.crest_view = CrestView(self._surface, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []

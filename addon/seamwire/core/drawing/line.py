@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.half_edges import among
 from ..base.refused import Refused
 from ..network.picks import vertices_of
 from .gesture import Gesture
@@ -139,4 +138,4 @@ class LineGesture(Gesture):
         """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
         if self.joined is not None or end == seed.began:
             return True
-        return isinstance(end, int) and bool(among(np.array([end]), self._drawing.stops.kept(network))[0])
+        return isinstance(end, int) and bool(np.isin(end, self._drawing.stops.kept(network)))

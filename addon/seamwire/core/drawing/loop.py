@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..base.refused import Refused
@@ -11,7 +12,7 @@ from ..fields.crests import CREST_KINDS
 from ..network.network import Snap
 from ..network.picks import FacePoint, pick_name, undirected
 from ..offers.edge_loops import LoopOffers, taken
-from ..offers.part_borders import PartBorders
+from ..offers.part_search import PartSearch
 from ..offers.surface_loops import SurfaceLoops
 from .gesture import Gesture
 from .line import LineGesture
@@ -43,8 +44,9 @@ class LoopGesture(Gesture):
     def __init__(self, drawing: Drawing, live: WireGesture) -> None:
         self._drawing = drawing
         self._live = live
-        points, triangles, edges = drawing.points, drawing.triangles, drawing.edges
-        parts = PartBorders(points, triangles, edges, lambda: drawing.seams, drawing.find_parts)
+        points, triangles = drawing.points, drawing.triangles
+        live_edges = partial(drawing.engines.get, "EDGES")
+        parts = PartSearch(live_edges, len(triangles), lambda: drawing.seams, drawing.find_parts)
         self.edges = LoopOffers(drawing.engines, drawing.stops, points, parts)
         self.cuts = SurfaceLoops(drawing.engines, triangles)
         self.problem = ""

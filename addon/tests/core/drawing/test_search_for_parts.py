@@ -8,7 +8,7 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import session_on
 from seamwire.core.drawing.session import Session
-from seamwire.core.offers.part_borders import AMOUNTS
+from seamwire.core.offers.part_search import AMOUNTS
 
 SIZE = 9
 COLUMN = np.array([[SIZE * row + 4, SIZE * (row + 1) + 4] for row in range(SIZE - 1)], dtype=np.int32)
