@@ -15,9 +15,6 @@ from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import FOLLOWS, Wire
 from seamwire.core.offers.edge_loops import KINDS
-from seamwire.networks.core import network_file
-from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
-from seamwire.networks.core.placing import Shape
 from seamwire.terms.choices import ALONG, FINISHES, METRICS
 from seamwire_networks import network_file
 from seamwire_networks.network_file import NetworkFile, NetworkFileError
