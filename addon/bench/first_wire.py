@@ -69,7 +69,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
             LiveMaker(arrays), arrays.points, Options(along=along), edges=arrays.edges, triangles=arrays.triangles
         )
     )
-    Picker(arrays).depth(Camera(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
+    Picker(arrays).surface_at(Camera(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()
     steps["ready"] = watch.lap()

@@ -45,18 +45,10 @@ def main() -> None:
     def all_anew() -> None:
         stretch.update(uvs * np.float32(rng.uniform(0.5, 2.0)))
 
-    def one_island_anew() -> None:
-        moved = uvs.copy()
-        moved[: len(moved) // 50] *= np.float32(rng.uniform(0.5, 2.0))
-        some.update(moved, labels)
-
-    some = fixed()
-    some.update(uvs, labels)
     show("what of the mesh stays: corners and lengths", fixed)
     show("Blender's UV map read in edit mode", lambda: uv_map.read_uvs(obj))
     show("the stretch of all faces", all_anew)
     show("its means by islands", lambda: stretch.islands(labels, "ANGLE"))
-    show("one island of fifty anew", one_island_anew)
     show("the islands that have changed are found", lambda: unwrap._Map(obj, every=False, by_library=True))
 
 

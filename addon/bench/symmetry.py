@@ -14,8 +14,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from seamwire.core.network.symmetry import TOLERANCE, Symmetry
+from seamwire.core.network.symmetry import Symmetry
 
+TOLERANCE = 2e-5
 SIDE = 1000
 FLIP = np.array([-1.0, 1.0, 1.0])
 

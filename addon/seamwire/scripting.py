@@ -31,7 +31,7 @@ import numpy as np
 
 from .core.base import native
 from .core.network.picks import FacePoint, undirected
-from .core.offers.edge_loops import KIND_COSTS
+from .core.offers.edge_loops import KINDS
 from .mesh import edit_mesh, finishes, modes, settings
 from .mesh.object_session import ObjectSession
 from .terms.choices import ALONG, DEFAULT_FINISH, FINISHES, METRICS
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 Seed = Union[int, "tuple[int, int]", "tuple[float, float, float]"]
 """A vertex, an edge as its two vertices, or a place in object coordinates."""
-TAKES = ("FIRST", *KIND_COSTS)
+TAKES = ("FIRST", *KINDS)
 """Which loop along edges `mark` takes: the first that a click would offer, or one of a kind."""
 _NO_LIMIT = 1e9
 """Blender's limits beyond this are those of the type."""

@@ -55,6 +55,7 @@ class FakeChain:
     final: bool = True
     closed: bool = False
     places: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    corners: int = 0
 
 
 @dataclass
@@ -139,7 +140,6 @@ class FakeLive:
     early: bool = False
     through: list[object] = field(default_factory=list)
     bent: list[object] = field(default_factory=list)
-    rings: dict[tuple[int, int], int] = field(default_factory=dict)
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
     strokes: list[tuple[object, ...]] = field(default_factory=list)
@@ -193,10 +193,7 @@ class FakeLive:
             return FakeChain(np.empty(0, dtype=np.int32), final=all(self.ready))
         up = self.size if max(a, b) + 2 * self.size < self.size**2 else -self.size
         ring = [a, b, b + up, b + 2 * up, a + 2 * up, a + up]
-        if not self.boxes:
-            for way in (ring, ring[::-1]):
-                self.rings |= {(way[i - 2], way[i - 1]): way[i] for i in range(len(way))}
-        return FakeChain(np.array(ring, dtype=np.int32))
+        return FakeChain(np.array(ring, dtype=np.int32), corners=4 if self.boxes else 0)
 
     def closed_wires(self, through: object) -> FakeCuts:
         """Squares of two cells, to the right of a vertex and to its left; the second does not separate. On `islands` none."""
@@ -254,8 +251,6 @@ class FakeLive:
         return FakeChain(np.array(way, dtype=np.int32))
 
     def _straight_on(self, before: int, at: int) -> int | None:
-        if (before, at) in self.rings:
-            return self.rings[before, at]
         last = self.size - 1
         (from_x, from_y), (x, y) = ((v % self.size, v // self.size) for v in (before, at))
         dx, dy = x - from_x, y - from_y
@@ -308,6 +303,14 @@ class FakeLive:
 
     def feature_strength(self) -> NDArray[np.float64]:
         return np.zeros(self.size**2)
+
+    @property
+    def surface(self) -> object:
+        """The library's own surface of the grid."""
+        return _library_wires(self.size).surface
+
+    def wait_for_surface(self) -> bool:
+        return True
 
     def progress(self) -> float:
         return sum(self.ready) / len(self.ready)

@@ -345,10 +345,10 @@ class Run:
 
     def _check_map(self, obj: bpy.types.Object) -> None:
         """Warn of what is wrong with the UV map that an object in edit mode has."""
-        from seamwire.core.islands.map_faults import find_faults
         from seamwire.core.seams.seam_plan import stretch_of
         from seamwire.mesh import uv_map
         from seamwire.mesh.seam_islands import mapped
+        from seamwire.mesh.unwrap import faults_of
         from seamwire.words.reports import in_words, not_reached, percent
 
         surface = mapped(obj)
@@ -357,7 +357,7 @@ class Run:
         hidden, faces = sum(face.hide for face in obj.data.polygons), len(obj.data.polygons)
         if hidden:
             self.warnings.append(f"{obj.name}: {hidden} of {faces} faces are hidden and were not unwrapped")
-        told = in_words(find_faults(surface, may_stack=self._may_stack))
+        told = in_words(faults_of(obj, may_stack=self._may_stack))
         if self._stretch_wanted:
             stretch = 100.0 * stretch_of(surface.energy(uv_map.aspect(obj)))
             missed = not_reached([stretch], self._stretch_wanted)

@@ -63,7 +63,7 @@ def suggest(**options: object) -> set[str]:
 def gaps_in(mesh: ObjectSession) -> tuple[Gap, ...]:
     """Return the gaps that the corner of the view counts."""
     arrays, make = mesh.arrays, mesh.make_live
-    finder = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
+    finder = GapFinder(make.wait, arrays.partly_hidden)
     maker = IslandMaker(arrays.triangles, make.face_segments, gaps=finder)
     shown = ShownIslands(maker, mesh.session, arrays.seams)
     shown.poll()

@@ -3,6 +3,7 @@
 
 import math
 import re
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -11,6 +12,7 @@ import pytest
 from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
 from mathutils.kdtree import KDTree
 from scene import add_grid, add_object, add_suzanne, changing, edit, snapshot
+from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.mesh.seam_islands import labels_of
@@ -115,7 +117,7 @@ def test_faces_that_rounding_turns_over_are_turned_back(
     obj = add_capped_columns()
     edit()
     with monkeypatch.context() as without:
-        without.setattr(unwrapping, "turn_back", lambda *_: (np.empty(0, dtype=np.int64), np.empty((0, 2))))
+        without.setattr(unwrapping._Map, "turn_back", lambda _: False)
         assert unwrap(straight=False, upright=False) == {"FINISHED"}
     left = turned_over(obj)
     assert left > 0
@@ -133,11 +135,12 @@ def test_faces_that_rounding_turns_over_are_turned_back(
 def piled_up(monkeypatch: pytest.MonkeyPatch) -> None:
     """All islands are laid out at one place, and not packed."""
 
-    def packed(solved: dict[object, tuple[np.ndarray, ...]], *_: object) -> np.ndarray:
-        flat = np.concatenate([uvs for _, uvs, _ in solved.values()])
-        return flat / (4.0 * np.ptp(flat)) + 0.5
+    def packed(uvs: np.ndarray, islands: np.ndarray, **_: object) -> SimpleNamespace:
+        size = 4.0 * np.ptp(uvs)
+        placement = np.array([[1.0 / size, 0.0, 0.5], [0.0, 1.0 / size, 0.5]])
+        return SimpleNamespace(placements=np.repeat(placement[None], islands.max() + 1, axis=0))
 
-    monkeypatch.setattr(unwrapping, "_packed", packed)
+    monkeypatch.setattr(native.load(), "pack_islands", packed)
 
 
 @pytest.mark.usefixtures("piled_up")
@@ -194,7 +197,7 @@ def test_an_island_outside_the_uv_square_is_told(capfd: pytest.CaptureFixture[st
 
 
 @pytest.mark.parametrize("with_map", [False, True])
-@pytest.mark.parametrize("where", ["_place", "find_faults", "_lay_out"])
+@pytest.mark.parametrize("where", ["_place", "_faults", "_pile_up"])
 def test_any_error_leaves_all_uvs_as_they_were(where: str, with_map: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(5)
     for vertex in obj.data.vertices:

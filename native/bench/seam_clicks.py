@@ -46,8 +46,8 @@ from seamwire.core.network.stops import Stops
 from seamwire.core.network.strokes import for_library
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.network.wires import Wire
-from seamwire.core.offers.edge_loops import LoopOffers, past_poles
-from seamwire.core.offers.part_borders import AMOUNTS, PartBorders
+from seamwire.core.offers.edge_loops import LoopOffers
+from seamwire.core.offers.part_search import AMOUNTS, PartSearch
 from seamwire.core.solver.solver import Engines
 
 if TYPE_CHECKING:
@@ -133,13 +133,11 @@ class Seamwire:
         self.hand = None if wobble is None else Hand(self.engine.surface, wobble)
         self._points, self._past_poles = mesh[0], past_poles
         surface = self.engine.surface
-        self._parts = None
-        if parts:
-            finder = PartFinder(surface)
-            labels = [finder.find(amount).of_face for amount in AMOUNTS]
-            self._parts = PartBorders(mesh[0], surface.triangles, surface.edges, find_parts=lambda *_: labels)
-            self._parts.ready()
-            self._parts.wait()
+        finder = PartFinder(surface) if parts else None
+        labels = [] if finder is None else [finder.find(amount).of_face for amount in AMOUNTS]
+        self._parts = PartSearch(lambda: self.engine.live, len(surface.triangles), find_parts=lambda *_: labels)
+        self._parts.ready()
+        self._parts.wait()
         self._loops: dict[Pair, list[int] | None] = {}
         self._engines = Engines(lambda _: self.engine.live, for_library)
         self._symmetry = Symmetry(mesh[0])
@@ -153,12 +151,12 @@ class Seamwire:
             yield edges_of(loop, True)
         yield edges_of(*self.engine.strip(edge))
         yield edges_of(*self.engine.strip(edge, stops))
-        if self._past_poles:
-            chain, closed = past_poles(self.engine.live, edge, list(stops))
-            yield edges_of(list(chain), closed)
-        if self._parts is not None:
-            for border in self._parts.borders(edge):
-                yield edges_of(list(border), True)
+        if self._past_poles and not stops.issuperset(edge):
+            for offer in self._parts.finder.find(edge, plane=list(stops)):
+                if offer.kind == "past":
+                    yield edges_of(offer.vertices.tolist(), offer.closed)
+        for border in self._parts.finder.borders(edge):
+            yield edges_of(border.tolist(), True)
 
     def at_once(self) -> Edges:
         """Return nothing: there is no such command."""

@@ -15,11 +15,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import seamwire_core
 from seams_engine import fan_triangles, polygon_edges
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.core.seams.gaps import GapFinder, border_edges  # these know no Blender
-from seamwire.core.seams.seam_wires import seam_chains
+from seamwire.core.seams.gaps import GapFinder  # these know no Blender
 
 _SHORTEST = 8
 _NEAR_END = 3
@@ -39,10 +39,14 @@ def main() -> None:
         edges, triangles = polygon_edges(offsets, corners), fan_triangles(offsets, corners)
         edges = edges[edges[:, 0] != edges[:, 1]]
         seams = np.array(sorted(listed)).reshape(-1, 2)
-        ends = set(np.flatnonzero(np.bincount(seams.ravel()) == 1)) - set(border_edges(triangles, edges).ravel())
-        finder = GapFinder(points, triangles, edges)
+        corners, counts = np.unique(
+            np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_counts=True
+        )
+        ends = set(np.flatnonzero(np.bincount(seams.ravel()) == 1)) - set(corners[counts == 1].ravel())
+        surface = seamwire_core.Surface(points, triangles, edges)
+        finder = GapFinder(lambda surface=surface: surface)
         counts = [len(ends), len(finder.find(seams)), 0, 0]
-        for chain in seam_chains(seams):
+        for chain in map(np.ndarray.tolist, seamwire_core.edge_chains(seams)):
             if len(chain) <= _SHORTEST:
                 continue
             at = int(draw.integers(_NEAR_END, len(chain) - 1 - _NEAR_END))

@@ -114,21 +114,42 @@ std::vector<std::array<std::int32_t, N>> indices_from(py::handle value, const st
 
 }  // namespace
 
-std::vector<Vector> points_from(py::handle value, const std::string& name) {
+namespace {
+
+/// Rows of real numbers of a fixed size.
+template <class Row>
+std::vector<Row> reals_from(py::handle value, const std::string& name) {
+  constexpr auto kColumns = static_cast<std::size_t>(Row::SizeAtCompileTime);
   const py::array array = [&] {
     const PythonCall calling;
-    const py::array given = rows_from(value, 3, "fiu", "real numbers", name);
+    const py::array given = rows_from(value, kColumns, "fiu", "real numbers", name);
     return py::isinstance<py::array_t<double>>(given) ? given : py::array(given.attr("astype")("float64"));
   }();
   const Layout from(array);
   const GilRelease released;
-  std::vector<Vector> to(from.rows);
+  std::vector<Row> to(from.rows);
   for (std::size_t row = 0; row < from.rows; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
+    for (std::size_t column = 0; column < kColumns; ++column) {
       to[row][static_cast<Eigen::Index>(column)] = load<double>(from.at(row, column));
     }
   }
   return to;
+}
+
+}  // namespace
+
+std::vector<Vector> points_from(py::handle value, const std::string& name) { return reals_from<Vector>(value, name); }
+
+std::vector<Eigen::Vector2d> places_from(py::handle value, const std::string& name) {
+  return reals_from<Eigen::Vector2d>(value, name);
+}
+
+std::vector<Eigen::AlignedBox2d> boxes_from(py::handle value, const std::string& name) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const Eigen::Vector4d& row : reals_from<Eigen::Vector4d>(value, name)) {
+    boxes.emplace_back(row.head<2>(), row.tail<2>());
+  }
+  return boxes;
 }
 
 Triangle triangle_from(py::handle value, const std::string& name) {
@@ -159,6 +180,17 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
   to.reserve(static_cast<std::size_t>(array.shape(0)));
   for (const auto& [number] : indices_from<1>(array.attr("reshape")(-1, 1), name)) to.push_back(number);
   return to;
+}
+
+std::vector<std::uint8_t> flags_from(py::handle value, const std::string& name) {
+  const PythonCall calling;
+  const std::string wanted = name + ": expected booleans of shape (n,)";
+  const py::array array = array_from(value, wanted);
+  if (array.ndim() != 1) throw InvalidInput(wanted + ", got shape " + shape_of(array));
+  if (array.shape(0) == 0) return {};  // NumPy makes an empty list float64
+  if (array.dtype().kind() != 'b') throw InvalidInput(wanted + ", got dtype " + std::string(py::str(array.dtype())));
+  const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> bytes(array);
+  return {bytes.data(), bytes.data() + bytes.size()};
 }
 
 std::int32_t number_from(py::handle value, const std::string& name) {
@@ -197,6 +229,17 @@ CornerUvs corner_uvs_from(py::handle value, const std::string& name) {
   CornerUvs uvs(numbers.size() / 6);
   if (!uvs.empty()) std::ranges::copy(numbers, uvs.front().front().data());
   return uvs;
+}
+
+Eigen::MatrixXd matrix_from(py::handle value, py::ssize_t columns, const std::string& name) {
+  const PythonCall calling;
+  const py::array array = rows_from(value, columns, "fiu", "real numbers", name).attr("astype")("float64");
+  const Layout from(array);
+  Eigen::MatrixXd to(array.shape(0), columns);
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    to(i / columns, i % columns) = load<double>(from.at(i / columns, i % columns));
+  }
+  return to;
 }
 
 std::size_t count_from(py::handle value, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -38,8 +39,16 @@ Triangle triangle_from(py::handle value, const std::string& name);
 std::vector<double> values_from(py::handle value, const std::string& name);
 /// Three real numbers of shape (3,).
 Vector vector_from(py::handle value, const std::string& name);
+/// Real numbers of shape (n, 2).
+std::vector<Eigen::Vector2d> places_from(py::handle value, const std::string& name);
+/// Low and high corners of shape (n, 4).
+std::vector<Eigen::AlignedBox2d> boxes_from(py::handle value, const std::string& name);
+/// Booleans of shape (n,).
+std::vector<std::uint8_t> flags_from(py::handle value, const std::string& name);
 /// Real numbers of shape (m, 3, 2).
 CornerUvs corner_uvs_from(py::handle value, const std::string& name);
+/// Real numbers of shape (n, columns).
+Eigen::MatrixXd matrix_from(py::handle value, py::ssize_t columns, const std::string& name);
 /// An integer that is not negative. A number above the range becomes the largest one.
 std::size_t count_from(py::handle value, const std::string& name);
 
@@ -90,6 +99,18 @@ inline py::array view(const std::vector<Eigen::Matrix3d>& matrices, py::handle o
   const double* data = matrices.empty() ? nullptr : matrices.front().data();
   return view(data, {static_cast<py::ssize_t>(matrices.size()), 3, 3},
               {sizeof(Eigen::Matrix3d), sizeof(double), 3 * sizeof(double)}, owner);  // Eigen stores columns
+}
+
+/// Maps of the plane, as arrays of shape (n, 2, 3).
+inline py::array view(const std::vector<Eigen::Matrix<double, 2, 3>>& maps, py::handle owner) {
+  constexpr py::ssize_t kSize = sizeof(double);  // Eigen stores columns
+  return view(maps.empty() ? nullptr : maps.front().data(), {static_cast<py::ssize_t>(maps.size()), 2, 3},
+              {6 * kSize, kSize, 2 * kSize}, owner);
+}
+
+inline py::array view(const std::vector<Eigen::Vector2d>& rows, py::handle owner) {
+  const double* data = rows.empty() ? nullptr : rows.front().data();
+  return view(data, {static_cast<py::ssize_t>(rows.size()), 2}, {sizeof(Eigen::Vector2d), sizeof(double)}, owner);
 }
 
 inline py::array view(const CornerUvs& uvs, py::handle owner) {

@@ -14,6 +14,7 @@
 #include "detail/poll.hpp"
 #include "held.hpp"
 #include "names.hpp"
+#include "parameterization/with_repeats.hpp"
 #include "rooms.hpp"
 #include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/parameterization/measure_map.hpp"
@@ -184,8 +185,8 @@ auto measured(const py::object& points, const py::object& triangles, const py::o
   const auto numbers = islands.is_none() ? std::vector<std::int32_t>{} : numbers_from(islands, "islands");
   auto own_edges = real_edges_from(edges);
   return Watch(progress).run([&](const Task& task) {
-    const Surface surface(std::move(own_points), std::move(own_triangles), std::move(own_edges),
-                          detail::part_of(task, 0.0, 0.2));
+    const Surface surface = detail::surface_with_repeats(std::move(own_points), std::move(own_triangles),
+                                                         std::move(own_edges), detail::part_of(task, 0.0, 0.2));
     return measure(surface, own_uvs, numbers, detail::part_of(task, 0.2, 1.0));
   });
 }
@@ -284,13 +285,7 @@ PackTurns turns_from(const std::string& name) {
 void bind_pack_islands(py::module_& module) {
   py::class_<Packing, Held<Packing>>(module, "Packing", "Places of islands in the unit square.")
       .def_property_readonly(
-          "placements",
-          [](const py::object& self) {
-            const std::vector<Eigen::Matrix<double, 2, 3>>& all = self.cast<const Packing&>().placements;
-            constexpr py::ssize_t kSize = sizeof(double);  // Eigen stores columns
-            return view(all.empty() ? nullptr : all.front().data(), {static_cast<py::ssize_t>(all.size()), 2, 3},
-                        {6 * kSize, kSize, 2 * kSize}, self);
-          },
+          "placements", array_of<Packing>(&Packing::placements),
           "(k, 2, 3) float64: the map of each island to the square. A point (x, y) of the island lies at "
           "placement @ (x, y, 1). Zero for an island without triangles.")
       .def_readonly("scale", &Packing::scale,

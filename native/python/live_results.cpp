@@ -91,6 +91,8 @@ void bind_live_loop(py::module_& module) {
                              "(k,) int32: the vertices, without repeating the first. Empty if there is no such chain, "
                              "or not yet.")
       .def_readonly("length", &LiveLoop::length, "float: the length in its metric plus the cost of turning.")
+      .def_readonly("corners", &LiveLoop::corners,
+                    "int: how often the chain turns off by 60 degrees or more, although straight ways go on there.")
       .def_readonly("final", &LiveLoop::final, "bool: False while it is still being computed.")
       .def("__repr__", [](const LiveLoop& loop) {
         return "<LiveLoop: " + (loop.final ? std::to_string(loop.vertices.size()) + " vertices>" : "not yet>");

@@ -28,12 +28,15 @@ functions on other threads stop and raise SystemExit.)";
   bind_wires(module);
   bind_geodesics(module);
   bind_edges(module);
+  bind_loop_offers(module);
   bind_live_results(module);
   bind_live(module);
   bind_rays(module);
+  bind_picker(module);
   bind_faces(module);
   bind_cut(module);
   bind_flatten(module);
+  bind_islands(module);
   bind_seams(module);
   bind_views(module);
 }

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "arrays.hpp"
 #include "held.hpp"
 #include "rooms.hpp"
+#include "seamwire/surface/mirror_partners.hpp"
 #include "seamwire/surface/nearest_points.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "watch.hpp"
@@ -101,10 +103,90 @@ Cancelled
 )");
 }
 
+py::array nearest_vertices_of(const py::object& points, const py::object& places, const py::object& reach) {
+  const std::vector<Vector> own_points = points_from(points, "points"), own_places = points_from(places, "places");
+  const bool is_one = py::isinstance<py::float_>(reach) || py::isinstance<py::int_>(reach);
+  const std::vector<double> own_reach =
+      is_one ? std::vector<double>(own_places.size(), reach.cast<double>()) : values_from(reach, "reach");
+  return handed_over(Watch(py::none()).run([&](const Task& task) {
+    return nearest_vertices(own_points, own_places, own_reach, task);
+  }));
+}
+
+py::array mirror_partners_of(const py::object& points, const py::object& axes, const py::object& edges,
+                             const py::object& triangles) {
+  const std::vector<Vector> own_points = points_from(points, "points");
+  MirrorOptions options{.axes = {false, false, false}, .edges = {}, .triangles = {}};
+  for (const std::int32_t axis : numbers_from(axes, "axes")) {
+    if (axis < 0 || axis > 2) throw InvalidInput("axes: expected 0, 1 or 2, got " + std::to_string(axis));
+    options.axes[static_cast<std::size_t>(axis)] = true;
+  }
+  if (!edges.is_none()) options.edges = edges_from(edges, "edges");
+  if (!triangles.is_none()) options.triangles = triangles_from(triangles, "triangles");
+  return handed_over(
+      Watch(py::none()).run([&](const Task& task) { return mirror_partners(own_points, options, task); }));
+}
+
+void bind_partners(py::module_& module) {
+  module.def("nearest_vertices", &nearest_vertices_of, py::arg("points"), py::arg("places"), py::arg("reach"),
+             R"(Find the nearest vertex of each place, within a distance.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    The vertices. Vertices that are not finite are never found.
+places : (k, 3) array_like of float
+    A place that is not finite has no nearest vertex.
+reach : float or (k,) array_like of float
+    How far away a vertex may be: one distance, or one for each place.
+
+Returns
+-------
+(k,) int32
+    The vertex, usually the first of several at the same distance, or -1.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, or there are not as many distances as places.
+)");
+  module.def("mirror_partners", &mirror_partners_of, py::arg("points"), py::arg("axes"), py::arg("edges") = py::none(),
+             py::arg("triangles") = py::none(),
+             R"(Find the vertex that is the mirror image of each vertex.
+
+Partners are one to one: each vertex is the partner of its partner. By place, each is the nearest to the mirror image of
+the other. Vertices in one place have different partners.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    The vertices. Vertices that are not finite have no partners.
+axes : (a,) array_like of int
+    The coordinates that change their sign: 0, 1 or 2.
+edges : (e, 2) array_like of int, optional
+    The edges of the mesh. A vertex may be as far from its partner's image as half of (sum of 1 / l^2)^(-1/2), over the
+    lengths l of its edges. None: as far as 2e-5.
+triangles : (m, 3) array_like of int, optional
+    Triangles with one orientation. If given, partners are grown over the polygons that `edges` bound, from edges whose
+    ends have partners by place. This finds the partners of a mesh in a pose.
+
+Returns
+-------
+(n,) int32
+    The partner of each vertex, or -1.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, or a vertex or an axis is out of range.
+)");
+}
+
 }  // namespace
 
 void bind_rays(py::module_& module) {
   bind_nearest(module);
+  bind_partners(module);
   py::class_<RayTree, Held<RayTree>>(module, "RayTree", R"(Finds the first triangle that a ray meets, from either side.
 
 A tree is built in the background. Before it is built, each query tests all triangles and has the same answer.

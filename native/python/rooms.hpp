@@ -16,12 +16,15 @@ void bind_embedding(py::module_& module);
 void bind_wires(py::module_& module);
 void bind_geodesics(py::module_& module);
 void bind_edges(py::module_& module);
+void bind_loop_offers(py::module_& module);
 void bind_live_results(py::module_& module);
 void bind_live(py::module_& module);
 void bind_rays(py::module_& module);
+void bind_picker(py::module_& module);
 void bind_faces(py::module_& module);
 void bind_cut(py::module_& module);
 void bind_flatten(py::module_& module);
+void bind_islands(py::module_& module);
 void bind_seams(py::module_& module);
 void bind_views(py::module_& module);
 

@@ -1124,6 +1124,198 @@ def fit_chain(
     Cancelled
     """
 
+class LoopOffer:
+    """A chain of edges that a click on an edge may take."""
+
+    kind: Literal["closed", "past", "strip", "whole", "flat", "crossing"]
+    """{'closed', 'past', 'strip', 'whole', 'flat', 'crossing'}: the cheapest closed chain in the metric, the straight way past poles, the edge loop up to kept edges and without them, the border of a part or of a flat face, and a loop through the crossing edge."""
+    vertices: NDArray[np.int32]
+    """(k,) int32: the vertices in order. A closed chain does not repeat its first vertex."""
+    closed: bool
+    """bool: whether an edge joins the last vertex to the first."""
+    through: tuple[int, int]
+    """(int, int): the picked edge, or the edge of the chain that stands for it. The smaller vertex comes first."""
+    beside: tuple[LoopOffer, ...]
+    """tuple of LoopOffer: other chains that the same click takes."""
+
+def edge_chains(edges: ArrayLike, ends: ArrayLike = ()) -> list[NDArray[np.int32]]:
+    """Join edges to chains, which end where other than two edges meet, and at some vertices.
+
+    Parameters
+    ----------
+    edges : (k, 2) array_like of int
+        Pairs of different vertices.
+    ends : (e,) array_like of int
+        Vertices where chains end as well.
+
+    Returns
+    -------
+    list of (c,) int32
+        The vertices of each chain. A closed chain ends with its first vertex. Open chains come first.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is negative, or an edge joins a vertex to itself.
+    """
+
+def find_gaps(
+    surface: Surface,
+    seams: ArrayLike,
+    longest: float = 0.5,
+    longest_of_several: float | None = None,
+    most_looked_at: int = 50000,
+    meant: ArrayLike = (),
+    partly_hidden: ArrayLike = (),
+) -> list[tuple[NDArray[np.int32], float]]:
+    """Find where seams end just before they meet another seam or the boundary.
+
+    A gap leads from the end of a seam to the nearest vertex of a seam or of the boundary, unless these lead there within
+    four times that distance. Two ends that face each other have one gap.
+
+    Parameters
+    ----------
+    surface : Surface
+    seams : (k, 2) array_like of int
+        Vertex pairs. Pairs that are not real edges are ignored.
+    longest : float
+        The longest gap, in lengths of the seam that ends there, up to where it meets other seams.
+    longest_of_several : float, optional
+        The same for gaps of more than one edge. None: as long as gaps of one edge.
+    most_looked_at : int
+        How many vertices around an end are looked at.
+    meant : (m,) array_like of int
+        Vertices where seams end on purpose.
+    partly_hidden : (h, 2) array_like of int
+        Edges where the mesh goes on, though no triangle of the surface does.
+
+    Returns
+    -------
+    list of ((p,) int32, float)
+        The vertices from the end of the seam along edges to what it nearly meets, and the length in the caller's unit. The
+        shortest gap comes first.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is out of range.
+    """
+
+class LoopOffers:
+    """Finds the loops that a click on an edge may take.
+
+    They are closed chains in a metric, edge loops, straight ways past poles, and borders of parts and flat faces.
+
+    Parameters
+    ----------
+    surface : Surface
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    Cancelled
+
+    References
+    ----------
+    docs/method/edges.md.
+    """
+
+    def __init__(self, surface: Surface, progress: Callable[[float], bool | None] | None = None) -> None: ...
+    def add_parts(self, labels: ArrayLike) -> None:
+        """Add one way to divide the surface into parts.
+
+        The borders of the first way come first. No other thread may use the object meanwhile.
+
+        Parameters
+        ----------
+        labels : (m,) array_like of int
+            The part of each triangle, as from `PartFinder.find`.
+
+        Raises
+        ------
+        ValueError
+            If there are not as many labels as triangles, or a label is negative or not below their number.
+        """
+    def find(
+        self,
+        edge: tuple[int, int],
+        loop: ArrayLike = (),
+        corners: int = 0,
+        *,
+        kept: ArrayLike = (),
+        plane: ArrayLike = (),
+        last: str | None = None,
+        triangle: int | None = None,
+        inside: bool = False,
+        crossing: tuple[int, int] | None = None,
+        crossing_loop: ArrayLike = (),
+        crossing_corners: int = 0,
+        close_call: bool = False,
+        shown: ArrayLike = (),
+        chosen: bool = False,
+    ) -> list[LoopOffer]:
+        """Find what a click on an edge may take.
+
+        Parameters
+        ----------
+        edge : (int, int)
+            The edge under the cursor.
+        loop : (k,) array_like of int
+            The cheapest closed chain through the edge, as from `shortest_cycle`. It may be empty.
+        corners : int
+            How often that chain turns off, as in `LiveLoop.corners`.
+        kept : (e, 2) array_like of int
+            The edges of seams and wires. Straight ways end at their vertices.
+        plane : (p,) array_like of int
+            Vertices where straight ways end unless both ends of their edge are among these, such as those in a mirror plane.
+        last : str, optional
+            The kind of the loop that was taken last, as in `LoopOffer.kind`.
+        triangle : int, optional
+            The triangle under the cursor.
+        inside : bool
+            Whether the cursor is inside a face. The borders of the part there come first.
+        crossing : (int, int), optional
+            The edge that crosses the picked edge at the cursor.
+        crossing_loop : (k,) array_like of int
+        crossing_corners : int
+            As `loop` and `corners`, of the crossing edge.
+        close_call : bool
+            Whether edges are so short that the crossing edge may be meant.
+        shown : (s,) array_like of int
+            The loop that was shown last. A closed loop repeats its first vertex. In a close call it decides between loops that are
+            as likely and as long.
+        chosen : bool
+            Whether the user asked for the loop that was shown last. Then it decides before all else.
+
+        Returns
+        -------
+        list of LoopOffer
+            No two run along the same edges. The likeliest comes first.
+
+        Raises
+        ------
+        ValueError
+            If an edge is not part of the surface, or a vertex or a triangle is out of range.
+        """
+    def borders(self, edge: tuple[int, int]) -> list[NDArray[np.int32]]:
+        """Find the borders between parts that lead through an edge.
+
+        Parameters
+        ----------
+        edge : (int, int)
+
+        Returns
+        -------
+        list of (k,) int32
+            Closed chains, which do not repeat their first vertices: for each way to divide the surface, the shortest first.
+
+        Raises
+        ------
+        ValueError
+            If the edge is not part of the surface.
+        """
+
 class LiveCandidate:
     """One of the wires from the seed to a target."""
 
@@ -1177,6 +1369,8 @@ class LiveLoop:
     """(k,) int32: the vertices, without repeating the first. Empty if there is no such chain, or not yet."""
     length: float
     """float: the length in its metric plus the cost of turning."""
+    corners: int
+    """int: how often the chain turns off by 60 degrees or more, although straight ways go on there."""
     final: bool
     """bool: False while it is still being computed."""
 
@@ -1638,6 +1832,64 @@ class NearestPoints:
         Cancelled
         """
 
+def nearest_vertices(points: ArrayLike, places: ArrayLike, reach: float | ArrayLike) -> NDArray[np.int32]:
+    """Find the nearest vertex of each place, within a distance.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        The vertices. Vertices that are not finite are never found.
+    places : (k, 3) array_like of float
+        A place that is not finite has no nearest vertex.
+    reach : float or (k,) array_like of float
+        How far away a vertex may be: one distance, or one for each place.
+
+    Returns
+    -------
+    (k,) int32
+        The vertex, usually the first of several at the same distance, or -1.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or there are not as many distances as places.
+    """
+
+def mirror_partners(
+    points: ArrayLike,
+    axes: ArrayLike,
+    edges: ArrayLike | None = None,
+    triangles: ArrayLike | None = None,
+) -> NDArray[np.int32]:
+    """Find the vertex that is the mirror image of each vertex.
+
+    Partners are one to one: each vertex is the partner of its partner. By place, each is the nearest to the mirror image of
+    the other. Vertices in one place have different partners.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        The vertices. Vertices that are not finite have no partners.
+    axes : (a,) array_like of int
+        The coordinates that change their sign: 0, 1 or 2.
+    edges : (e, 2) array_like of int, optional
+        The edges of the mesh. A vertex may be as far from its partner's image as half of (sum of 1 / l^2)^(-1/2), over the
+        lengths l of its edges. None: as far as 2e-5.
+    triangles : (m, 3) array_like of int, optional
+        Triangles with one orientation. If given, partners are grown over the polygons that `edges` bound, from edges whose
+        ends have partners by place. This finds the partners of a mesh in a pose.
+
+    Returns
+    -------
+    (n,) int32
+        The partner of each vertex, or -1.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a vertex or an axis is out of range.
+    """
+
 class RayTree:
     """Finds the first triangle that a ray meets, from either side.
 
@@ -1676,6 +1928,153 @@ class RayTree:
     """bool: whether the tree is built."""
     def wait(self) -> None:
         """Wait until the tree is built."""
+
+class Picked:
+    """What is seen at a pixel."""
+
+    layer: int
+    """int: the layer that it is in. -1 for the mesh."""
+    owner: int
+    """int: the owner of the piece of a layer."""
+    pick: int | tuple[int, int] | None
+    """int, (int, int) or None: the vertex or the edge. None for a place."""
+    triangle: int
+    """int: the triangle of the place, or the one seen there, or -1."""
+    place: NDArray[np.float64]
+    """(3,) float64: in the coordinates of the points."""
+    depth: float
+    """float: how far a piece or the surface is from the near plane."""
+    is_feature: bool
+    """bool: whether it is a corner, a strong feature or a crest."""
+    crossing: tuple[int, int] | None
+    """(int, int) or None: the edge that crosses the edge at its end nearer to the cursor."""
+    is_close_call: bool
+    """bool: whether one of both edges is too short to point at."""
+    is_inside: bool
+    """bool: whether the cursor is inside a face, away from the edge."""
+
+class Picker:
+    """Finds what is under the cursor on a mesh.
+
+    Threads build its tables. A query before they are built waits for them.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    triangles : (m, 3) array_like of int
+    polygons : (m,) array_like of int
+        The polygon of each triangle. Triangles of a polygon follow one another.
+    edges : (e, 2) array_like of int
+        The edges of the polygons, without diagonals, and edges without a polygon.
+    to_object : (3, 3) array_like of float
+        Takes points to object coordinates.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, a vertex does not exist, or the numbers of triangles and polygons differ.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        polygons: ArrayLike,
+        edges: ArrayLike,
+        to_object: ArrayLike,
+    ) -> None: ...
+    def set_layer(
+        self,
+        number: int,
+        ends: ArrayLike,
+        owners: ArrayLike,
+        reach: float,
+        vertices: ArrayLike = (),
+    ) -> None:
+        """Set the straight pieces of one layer.
+
+        Parameters
+        ----------
+        number : int
+            Of the layer, below 64.
+        ends : (2k, 3) array_like of float
+            Two for each piece, twice the same for a point.
+        owners : (k,) array_like of int
+            The number of each piece's curve. For crest lines, the triangle of each piece.
+        reach : float
+            Pixels beside a piece in which it is found.
+        vertices : (k, 2) array_like of int
+            For crest lines, the vertices nearest to the ends of each piece.
+        """
+    def set_vertices(self, strengths: ArrayLike, least_strength: float, preferred: ArrayLike) -> None:
+        """Set which vertices are features, and which are preferred to others.
+
+        Parameters
+        ----------
+        strengths : (n,) array_like of float
+            How strong the feature is at each vertex, or nothing.
+        least_strength : float
+            Only vertices above it are features.
+        preferred : (k,) array_like of int
+        """
+    def pick(
+        self,
+        perspective: ArrayLike,
+        matrix: ArrayLike,
+        size: tuple[float, float],
+        cursor: tuple[float, float],
+        clip_planes: ArrayLike = (),
+        scale: float = 1.0,
+        xray: bool = False,
+        *,
+        layers: ArrayLike = (),
+        layers_only: bool = False,
+        surface_only: bool = False,
+        vertices_only: bool = False,
+        edges_only: bool = False,
+        anywhere: bool = False,
+        preferred: bool = False,
+        features: bool = False,
+        crests: int = -1,
+    ) -> Picked | None:
+        """Find what a click would take.
+
+        Parameters
+        ----------
+        perspective, matrix : (4, 4) array_like of float
+            Take world coordinates to clip space, and object coordinates to world coordinates.
+        size, cursor : (float, float)
+            The size of the picture, and a place in it from the bottom left, in pixels.
+        clip_planes : (k, 4) array_like of float
+            Nothing on the negative side of a plane is shown.
+        scale : float
+            Of the display. Distances in pixels are multiplied by it.
+        xray : bool
+            Whether to find what lies behind faces too.
+        layers : (k,) array_like of int
+            Layers that are found before the mesh, in this order.
+        layers_only, surface_only : bool
+            Find only these, or only the point of the surface.
+        vertices_only, edges_only : bool
+            Of the plain mesh, find vertices alone, or edges with the edge that crosses them.
+        anywhere : bool
+            Find the point of the surface if no vertex is meant.
+        preferred, features : bool
+            Find preferred vertices, or corners of sharp edges and otherwise the strongest feature nearby.
+        crests : int
+            The layer of crest lines, or -1.
+
+        Returns
+        -------
+        Picked or None
+
+        Raises
+        ------
+        ValueError
+            If what was set does not belong to the mesh.
+        """
+    def wait(self) -> None:
+        """Wait until the tables are built."""
 
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Find the segments into which cuts along edges divide a surface.
@@ -2080,6 +2479,309 @@ def pack_islands(
     Returns
     -------
     Packing
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a value is out of range or not finite.
+    Cancelled
+    """
+
+class UnwrapMesh:
+    """The polygons of a mesh with their islands, for UV maps.
+
+    Corners are numbered polygon by polygon. UVs of all corners are (c, 2) array_like of float. Methods raise ValueError if
+    an array has the wrong shape or type, or a number is out of range.
+
+    A vertex in the middle of a straight side of two polygons may be in a triangle without area on both sides. Maps are made
+    without it. Then it is put on the straight line between its neighbors.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Finite coordinates.
+    vertices : (c,) array_like of int
+        The vertex of each corner.
+    edges : (c,) array_like of int
+        The edge from each corner to the next corner of its polygon.
+    sizes : (p,) array_like of int
+        How many corners each polygon has.
+    triangles : (t, 3) array_like of int
+        Corners: how polygons are drawn.
+    islands : (p,) array_like of int
+        The island of each polygon, from 0, or -1 if it is hidden.
+    seams : (e,) array_like of bool
+        Whether each edge is a seam.
+
+    Raises
+    ------
+    ValueError
+        If arrays do not fit together.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        vertices: ArrayLike,
+        edges: ArrayLike,
+        sizes: ArrayLike,
+        triangles: ArrayLike,
+        islands: ArrayLike,
+        seams: ArrayLike,
+    ) -> None: ...
+    def changes(self, uvs: ArrayLike, memory: ArrayLike) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """Find the islands that no longer are what the seams say.
+
+        The map is torn at an edge without a seam of such an island, is whole at a seam, or has no area. Or it has a polygon
+        without area, a part that is folded over, or a new island that overlaps.
+
+        Parameters
+        ----------
+        uvs : (c, 2) array_like of float
+            The map.
+        memory : (e,) array_like of int
+            What each edge was when it was unwrapped last: 0 not known, 1 no seam, 2 a seam. 3: its polygons were joined later,
+            so that the map may be torn inside them. An edge that still is what it was does not count.
+
+        Returns
+        -------
+        changed : (k,) bool
+            Whether each island has changed.
+        densities : (k,) float64
+            Lengths in the map over lengths on the model, the same for islands that are one in the map. 0 if it is not known.
+        """
+    def flatten(
+        self,
+        islands: ArrayLike,
+        *,
+        start: ArrayLike | None = None,
+        straighten: float | None = None,
+        up: ArrayLike | None = None,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.int32], NDArray[np.bool_]]:
+        """Map some islands to the plane, as `flatten` does.
+
+        Parameters
+        ----------
+        islands : (j,) array_like of int
+            Their numbers.
+        start : (c, 2) array_like of float, optional
+            A former map, of any scale. It is not used if it has places that are not finite.
+        straighten, up, progress
+            As for the function `flatten`.
+
+        Returns
+        -------
+        corners : (i,) int32
+            The corners of these islands, ascending.
+        uvs : (i, 2) float64
+            Their places, in the points' unit of length.
+        parts : (i,) int32
+            Which of them hang together in the map. Parts may lie on each other.
+        straight : (k,) bool
+            Whether each island of the mesh was laid out straight.
+        """
+    def turn_back(self, uvs: ArrayLike, islands: ArrayLike) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+        """Turn back triangles of some islands that rounding to single precision has turned over.
+
+        Parameters
+        ----------
+        uvs : (c, 2) array_like of float
+            The map, in single precision.
+        islands : (j,) array_like of int
+            The numbers of the islands.
+
+        Returns
+        -------
+        corners : (j,) int32
+            The corners that move.
+        uvs : (j, 2) float64
+            Their new UVs.
+        """
+    def count_unmapped(self, uvs: ArrayLike) -> int:
+        """Count the hidden polygons that have an area on the model, but none in the map.
+
+        Parameters
+        ----------
+        uvs : (c, 2) array_like of float
+            The map.
+
+        Returns
+        -------
+        int
+        """
+
+def island_copies(
+    islands: Sequence[tuple[UnwrapMesh, ArrayLike]],
+) -> list[tuple[int, int, NDArray[np.int32], int, NDArray[np.int32]]]:
+    """Find the islands that are copies of earlier ones: the same polygons with the same lengths, mirrored or not.
+
+    Parameters
+    ----------
+    islands : sequence of (UnwrapMesh, (j,) array_like of int)
+        Meshes with the numbers of islands.
+
+    Returns
+    -------
+    list of (int, int, (c,) int32, int, (c,) int32)
+        For each copy: the place of its mesh in the sequence, its island, its corners, the place of the mesh of the first
+        island of this shape, and the corners there that correspond.
+
+    Raises
+    ------
+    ValueError
+        If an item is no such pair, or an island is out of range.
+    """
+
+def map_faults(
+    maps: Sequence[tuple[UnwrapMesh, ArrayLike, ArrayLike, ArrayLike | None]],
+    *,
+    may_stack: bool = False,
+    progress: Callable[[float], bool | None] | None = None,
+) -> tuple[int, int, int]:
+    """Count what is wrong with islands in a UV map that meshes share.
+
+    Parameters
+    ----------
+    maps : sequence of (UnwrapMesh, (j,) array_like of int, (c, 2) array_like of float, (c, 2) array_like of float or None)
+        All that lies in the map: meshes, the islands whose faults count, UVs, and UVs in the former map. Other islands are
+        what these may overlap. A polygon has no place if a UV is not finite.
+    may_stack : bool
+        Whether islands may lie exactly on each other.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    flipped : int
+        Polygons that are turned over against their island, or have no area or no place in the map.
+    overlapping : int
+        Islands that cover a part of themselves or of another island.
+    outside : int
+        Islands that lie neither in the UV square nor in the unit square where they were.
+
+    Raises
+    ------
+    ValueError
+        If an item is no such tuple, an array has the wrong shape or type, or a number is out of range.
+    Cancelled
+    """
+
+def map_stretch(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    polygons: ArrayLike,
+    uvs: ArrayLike,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Measure how much a UV map stretches polygons, in octaves (powers of two).
+
+    Let s1 >= s2 be the singular values of the map from a triangle to its UVs. Octaves above 5 count as 5. Polygons without
+    area have zero.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Vertices.
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    polygons : (m,) array_like of int
+        The polygon that each triangle is part of, ascending.
+    uvs : (m, 3, 2) array_like of float
+        The UVs of each triangle's corners.
+
+    Returns
+    -------
+    angle : (m,) float64
+        log2(s1 / s2) of each triangle's polygon.
+    area : (m,) float64
+        log2(s1 s2) of each triangle's polygon, where the mean of all is zero: positive where the map enlarges.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a vertex is out of range.
+    """
+
+def island_hues(
+    triangles: ArrayLike,
+    islands: ArrayLike,
+    cuts: ArrayLike,
+    former_islands: ArrayLike = (),
+    former_hues: ArrayLike = (),
+) -> NDArray[np.uint8]:
+    """Choose a hue for each island, far in the rainbow from those of its neighbors.
+
+    Hue h is the color at (4 + 5 h) mod 12 twelfths of the rainbow. Neighbors meet at a cut edge. Their hues are 3 twelfths
+    apart where possible. If there are more than 4096 islands, neighbors may have equal hues.
+
+    Parameters
+    ----------
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    islands : (m,) array_like of int
+        The island of each triangle, from 0. The largest island comes first.
+    cuts : (k, 2) array_like of int
+        Vertex pairs.
+    former_islands : (m,) array_like of int, optional
+        The islands that there were before. An island keeps the hue of the one to which most of it belonged, unless a larger
+        neighbor has one that is too near.
+    former_hues : (j,) array_like of int, optional
+        Their hues.
+
+    Returns
+    -------
+    (count,) uint8
+        The hue of each island, from 0 to 11.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a number is out of range.
+    """
+
+def place_islands(
+    before: ArrayLike,
+    after: ArrayLike,
+    triangles: ArrayLike,
+    islands: ArrayLike,
+    areas: ArrayLike,
+    *,
+    taken: ArrayLike = (),
+    aspects: ArrayLike | None = None,
+    straight: ArrayLike | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> NDArray[np.float64]:
+    """Find a place for new islands among parts of a UV map that stay.
+
+    Each island is turned as it was, and gets the nearest free place of its former unit square. Islands for which that
+    square has no room lie to the right of everything.
+
+    Parameters
+    ----------
+    before : (c, 2) array_like of float
+        Each corner's UV in the old map. An island with a UV that is not finite had no place.
+    after : (c, 2) array_like of float
+        Each corner's place now, of any scale, as the image shows it: u is multiplied by the aspect. Finite for the corners
+        of triangles.
+    triangles : (t, 3) array_like of int
+        Corners.
+    islands : (t,) array_like of int
+        The island of each triangle, numbered from 0.
+    areas : (k,) array_like of float
+        The wanted area of each island in the map. 0 keeps its scale.
+    taken : (b, 4) array_like of float, optional
+        Boxes around what stays: low u, low v, high u, high v.
+    aspects : (k,) array_like of float, optional
+        As in `pack_islands`.
+    straight : (k,) array_like of bool, optional
+        Whether an island's sides run along the axes, and stay so.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    (k, 2, 3) float64
+        The map of each island to its place, as `Packing.placements`.
 
     Raises
     ------

@@ -30,7 +30,10 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 '''
 CONTAINERS = {"list": "list[{}]", "tuple": "tuple[{}, ...]", "sequence": "Sequence[{}]", "iterable": "Iterable[{}]"}
-NAMES = {"float64": "NDArray[np.float64]", "int32": "NDArray[np.int32]", "callable": "Callable[[float], bool | None]"}
+NAMES = {
+    **{name: f"NDArray[np.{name}]" for name in ("float64", "int32", "uint8", "bool_")},
+    "callable": "Callable[[float], bool | None]",
+}
 
 
 def split(text: str, separator: str) -> tuple[str, str]:
@@ -51,7 +54,8 @@ def python_type(text: str) -> str:
         If it has another form.
     """
     text = re.sub(r"(\([\w +,-]*\) )?array_like( of \w+)?", "ArrayLike", text)  # stubs cannot tell shapes
-    text = re.sub(r"\([\w +,-]*\) (?=float64|int32)", "", text)
+    text = re.sub(r"\([\w +,-]*\) bool\b", "bool_", text)
+    text = re.sub(r"\([\w +,-]*\) (?=float64|int32|uint8)", "", text)
     if container := re.fullmatch(rf"({'|'.join(CONTAINERS)}) of (.+)", text):
         return CONTAINERS[container[1]].format(python_type(container[2]))
     first, others = split(text, ",? or |, ")

@@ -20,7 +20,6 @@ from ..core.base import native
 from ..core.base.mesh_arrays import Arrays
 from ..core.base.triangulation import without_flat_triangles
 from ..core.network.picks import vertices_of
-from ..core.seams.gaps import triangles_at
 from ..core.storage.wire_labels import EdgeLabels
 from .versions import IS_OLD
 
@@ -246,10 +245,17 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
-        partly_hidden = edges[triangles_at(triangles[~visible], edges) > 0]
+        partly_hidden = edges[_are_sides(edges, triangles[~visible])]
         triangles, polygons = triangles[visible], polygons[visible]
     stretch = visible_stretch(obj.matrix_world)
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
+
+
+def _are_sides(edges: NDArray[np.int32], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Return which edges, (e, 2), are sides of triangles, (m, 3)."""
+    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    own, other = (np.sort(pairs, axis=1).astype(np.int64) @ [1 << 32, 1] for pairs in (edges, sides))
+    return np.isin(own, other)
 
 
 def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import area_normals
-from ..core.islands.islands import HUES, PLACES, choose_hues, neighbours
+from ..core.islands.islands import HUES, PLACES
 from ..core.islands.map_faults import MappedSurface
 from ..core.islands.square_use import MapInScene
 from ..core.islands.stretch import Stretch
@@ -74,7 +74,7 @@ def store(obj: bpy.types.Object, kind: str) -> int:
     count = int(labels.max(initial=-1)) + 1
     polygons, first = np.unique(arrays.polygons, return_index=True)
     if kind == "MATERIALS":
-        hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams))
+        hues = np.asarray(native.load().island_hues(arrays.triangles, labels, arrays.seams))
         if not obj.data.materials and len(polygons) < len(edit_mesh.edit_bmesh(obj.data).faces):
             obj.data.materials.append(None)
         numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
@@ -157,7 +157,7 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
     if uvs is None or not len(arrays.triangles):
         return None
     own = uvs[corners.of_triangles(arrays)]
-    return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
+    return MappedSurface(arrays.in_object, arrays.triangles, labels_of(arrays), own, arrays.edges)
 
 
 def maps_of(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, MappedSurface]:

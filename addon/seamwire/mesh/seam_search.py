@@ -437,7 +437,7 @@ class SeamSearch:
         maps = []
         for suggestion, (_, islands), own in zip(self, laid_out, np.split(packed, ends), strict=True):
             arrays = suggestion.mesh.arrays
-            surface = MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, islands, own, arrays.edges)
+            surface = MappedSurface(arrays.in_object, arrays.triangles, islands, own, arrays.edges)
             maps.append(MapInScene(suggestion.name, surface, suggestion.to_scene))
         return square_use(maps)
 

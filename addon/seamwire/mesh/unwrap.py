@@ -15,28 +15,16 @@ import zlib
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import bmesh
 import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.base.components import components
 from ..core.base.geometry import triangle_areas
-from ..core.islands.copies import ShapedIsland, shaped_islands
-from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
-from ..core.islands.straight_corners import find_straight
-from ..core.islands.uv_islands import (
-    NewIsland,
-    boxes_of,
-    flat_faces,
-    in_rows,
-    one_way_around,
-    place,
-    split_edges,
-    uv_areas,
-)
+from ..core.islands.map_faults import NO_FAULTS, MapFaults
+from ..core.islands.uv_islands import uv_areas
 from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -44,6 +32,7 @@ from .seam_islands import labels_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+    import seamwire_core
     from numpy.typing import NDArray
 
 UNWRAPPED = ".seamwire_unwrapped"
@@ -54,10 +43,6 @@ STRAIGHT_COST = 0.05
 """How much a straight layout may add to an island's symmetric Dirichlet energy."""
 UP = (0.0, 0.0, 1.0)
 """The direction of the object that points up in the map."""
-_FOLDED = 0.25
-"""The part of an island's faces that must be turned over for the island to count as folded."""
-_ON_LINE = 1e-6
-"""How far a UV may lie beside a line that it should lie on: UVs are rounded."""
 MARGIN = 1.0 / 256.0
 """Between packed islands, as a share of the UV square's side."""
 
@@ -85,7 +70,16 @@ class Layout:
 
 
 Solved: TypeAlias = "tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]"
-"""The corners of flattened islands, ascending, their UVs in lengths on the model, and the island of each."""
+"""The corners of unwrapped islands, ascending, their places on the image that the UVs lie on, in any unit, and the island of each."""
+
+
+class _ToPlace(NamedTuple):
+    """Triangles of islands that need a place: copies and islands with pins need none."""
+
+    triangles: NDArray[np.int64]  # (t, 3) rows of the islands' corners
+    before: NDArray[np.float64]  # (c, 2) all corners in the old map
+    areas: NDArray[np.float64]  # (t,) the wanted areas in the map
+    straight: NDArray[np.bool_]  # (t,)
 
 
 class _Map:
@@ -107,17 +101,16 @@ class _Map:
             self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else none
         labels = labels_of(arrays)
         self.count = int(labels.max(initial=-1)) + 1
-        self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int32)
+        self._of_face = np.full(len(self.corners.sizes), -1, dtype=np.int32)
         self._of_face[arrays.polygons] = labels
         # The map is made and measured for the triangles that Blender draws.
         drawn = self._drawn()
         labels = self._of_face[self.corners.faces[drawn[:, 0]]]
-        self._triangles = drawn[labels >= 0]
-        self._hidden = drawn[labels < 0]
-        self._labels = labels[labels >= 0]
+        self._triangles, self._labels = drawn[labels >= 0], labels[labels >= 0]
+        triangles = np.concatenate([self._triangles, drawn[labels < 0]])
+        columns = (self.corners.vertices, self.corners.edges, self.corners.sizes, triangles, self._of_face, self._seams)
+        self.mesh = native.load().UnwrapMesh(arrays.in_object, *columns)
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
-        is_seam = self._seams[self.corners.edges]
-        self._straight = find_straight(arrays.in_object, self.corners, is_seam, self._triangles)
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         self.with_pins = np.intersect1d(self.changed, self._labels[pinned[self._triangles].any(axis=1)])
@@ -126,7 +119,7 @@ class _Map:
         self.stacked = np.empty(0, dtype=np.int64)
 
     @property
-    def _before(self) -> NDArray[np.float64]:
+    def before(self) -> NDArray[np.float64]:
         """The old map, (c, 2); zeros: there was no UV map."""
         return np.zeros((len(self.corners.vertices), 2)) if self._uvs is None else self._uvs.astype(np.float64)
 
@@ -142,62 +135,13 @@ class _Map:
         return self.corners.of_triangles(replace(self._arrays, triangles=table[:, 1:], polygons=table[:, 0]))
 
     def _find_changed(self) -> NDArray[np.bool_]:
-        self._families = np.arange(self.count)
-        corners, seams, known, uvs = self.corners, self._seams, self._known, self._before
-        visible = self._of_face[corners.faces] >= 0
-        pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, uvs)
-        edges = corners.edges[pairs[:, 0]]
-        self._between = np.zeros(len(seams), dtype=bool)
-        self._between[edges] = True
+        self._densities = np.zeros(self.count)
         if self._uvs is None:
             return np.ones(self.count, dtype=bool)
-        islands = self._of_face[corners.faces[pairs]]
-        self._families = components(self.count, islands[~torn])
-        odd = (torn != seams[edges]) & (known[edges] != self._signs(seams[edges]))
-        odd |= known[edges] == JOINED
-        areas = uv_areas(uvs[self._triangles])
-        changed = np.bincount(self._labels, areas, self.count) <= 0.0
-        # An island without area on the model cannot have one in the map.
-        changed &= np.bincount(self._labels, self._areas, self.count) > 0.0
-        changed[islands[odd]] = True
         plain, seam = self._signs(np.array([False, True]))
-        is_known = (known[edges] == plain) | (known[edges] == seam)
-        changed |= self._with_bad_faces(pairs[~torn & ~seams[edges]], islands[is_known])
-        if is_known.any():
-            changed |= self._overlapping(np.unique(islands[~is_known]))
+        memory = np.select([self._known == plain, self._known == seam, self._known == JOINED], [1, 2, 3])
+        changed, self._densities = self.mesh.changes(self._uvs, memory)
         return changed
-
-    def _with_bad_faces(self, joints: NDArray[np.int64], known: NDArray[np.int32]) -> NDArray[np.bool_]:
-        """Return which islands, (count,), have faces that no map of them would have: without area, or turned over.
-
-        New faces have the UVs of their neighbors' corners, or none. `joints`, (k, 2), are corners at which two faces hold an edge that is
-        whole in the map. A map folded in two is intended, unless the island is one of the `known` ones, which Seamwire has unwrapped.
-        """
-        flat, turns = flat_faces(self._arrays.in_object, self.corners, self._triangles, self._before)
-        turns *= one_way_around(self.corners, joints)
-        bad = np.zeros(self.count, dtype=bool)
-        bad[self._of_face[flat & (self._of_face >= 0)]] = True
-        shown = np.flatnonzero((self._of_face >= 0) & (turns != 0))
-        labels = self._of_face[shown]
-        clockwise, sizes = (np.bincount(labels, each, self.count) for each in (turns[shown] < 0, turns[shown] != 0))
-        folded, is_known = (np.zeros(self.count, dtype=bool) for _ in range(2))
-        folded[self._of_face[self.corners.faces[joints[turns[self.corners.faces[joints]].prod(axis=1) < 0, 0]]]] = True
-        is_known[known] = True
-        few = np.minimum(clockwise, sizes - clockwise) < _FOLDED * sizes
-        return bad | (folded & (is_known | few))
-
-    def _overlapping(self, fresh: NDArray[np.int32]) -> NDArray[np.bool_]:
-        """Return which of some islands, (count,), overlap themselves or others."""
-        bad = np.zeros(self.count, dtype=bool)
-        if len(fresh):
-            surface = self.mapped()
-            sides = np.linalg.norm(surface.uvs - np.roll(surface.uvs, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-            # Triangles that lie on a line cover nothing.
-            rows, report = surface.measured(2.0 * uv_areas(surface.uvs.astype(np.float64)) > _ON_LINE * sides**2)
-            if report is not None:
-                islands = np.unique(surface.labels[rows])[np.union1d(report.overlapping, report.colliding)]
-                bad[np.intersect1d(islands, fresh)] = True
-        return bad
 
     def _signs(self, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Return what the layer holds of edges that are seams, or are not."""
@@ -211,115 +155,52 @@ class _Map:
     def flattened(self, start: NDArray[np.float64] | None, layout: Layout) -> Solved:
         """Flatten `flat`: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
 
-        `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. Returns the
-        corners of the islands, ascending, their UVs in lengths on the model, and the number of the island of each. An island has several
-        numbers where the seams do not part what is no surface.
+        `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. An island has
+        several numbers where the seams do not part what is no surface.
         """
-        drawn = self._triangles[np.isin(self._labels, self.flat)]
-        corners = self._straight.to_map(self._arrays.in_object, self.corners, drawn)
-        vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
-        number = np.full(len(self._arrays.points), -1, dtype=np.int32)
-        number[vertices] = np.arange(len(vertices))
-
-        def own(edges: NDArray[np.int32]) -> NDArray[np.int32]:
-            ends = number[edges]
-            return ends[(ends >= 0).all(axis=1)]
-
-        places = self._present()
+        places = None if self._uvs is None else self.before * (self.aspect, 1.0)
         if start is not None:
             places = np.zeros((len(self.corners.vertices), 2))
             places[self.corners.of_triangles(self._arrays)] = start
-        flat = native.load().flatten(
-            self._arrays.in_object[vertices],
-            triangles.reshape(-1, 3).astype(np.int32),
-            own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
-            start=None if places is None else places[corners],
-            edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
+        corners, uvs, parts, self._are_straight = self.mesh.flatten(
+            self.flat,
+            start=places,
             straighten=layout.straight_cost if layout.straight else None,
             up=UP if layout.upright else None,
         )
-        self._are_straight[self.flat] = True
-        bent = ~np.isin(np.asarray(flat.islands), flat.straight)
-        self._are_straight[self._of_face[self.corners.faces[corners[bent, 0]]]] = False
-        # A corner of several triangles is where the largest has it: one without area may be anywhere.
-        smallest_first = np.argsort(
-            triangle_areas(self._arrays.in_object, self.corners.vertices[corners]), kind="stable"
+        return corners, uvs, parts
+
+    def unwrapped(self) -> Solved:
+        """Return the changed islands without pins, as they lie in the UV map that the mesh has."""
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, self.with_pins))
+        corners = np.unique(self._triangles[rows])
+        uvs = uv_map.read_uvs(self.obj)[corners] * (self.aspect, 1.0)
+        return corners, uvs, self._of_face[self.corners.faces[corners]].astype(np.int64)
+
+    def to_place(self, corners: NDArray[np.int64], density: float) -> _ToPlace:
+        """Return what there is to place of unwrapped islands. A texel density is for islands that had none."""
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)))
+        labels = self._labels[rows]
+        return _ToPlace(
+            np.searchsorted(corners, self._triangles[rows]),
+            self.before[corners],
+            np.where(self._densities > 0.0, self._densities, density)[labels] ** 2 * self._areas[rows],
+            self._are_straight[labels],
         )
-        uvs = np.zeros((len(self.corners.vertices), 2))
-        uvs[corners[smallest_first]] = np.asarray(flat.uvs)[smallest_first]
-        labels = np.full(len(uvs), -1, dtype=np.int64)
-        labels[corners[smallest_first]] = np.repeat(np.asarray(flat.islands)[smallest_first], 3).reshape(-1, 3)
-        self._straight.place(uvs)
-        labels[self._straight.corners] = labels[self._straight.onto]
-        mapped = np.flatnonzero(labels >= 0)
-        return mapped, uvs[mapped], labels[mapped]
 
-    def rows_of(self, corners: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the triangles of flattened islands that lie on no others, (t, 3), as rows of the flattened corners, ascending."""
-        once = np.setdiff1d(self.flat, self.stacked)
-        return np.searchsorted(corners, self._triangles[np.isin(self._labels, once)])
-
-    def _present(self) -> NDArray[np.float64] | None:
-        """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
-        if self._uvs is None:
-            return None
-        uvs = self._uvs.astype(np.float64) * (self.aspect, 1.0)
-        areas = uv_areas(uvs[self._triangles])
-        in_map, on_model = (np.bincount(self._labels, each, self.count) for each in (areas, self._areas))
-        scale = np.sqrt(np.divide(on_model, in_map, out=np.ones(self.count), where=(in_map > 0.0) & (on_model > 0.0)))
-        uvs *= scale[self._of_face[self.corners.faces]][:, None]
-        return uvs if np.isfinite(uvs[self._triangles]).all() else None
-
-    def staying(self) -> NDArray[np.float64]:
-        """Return the bounds of the triangles that stay in the map, (b, 4); of hidden faces their own."""
-        if self._uvs is None:
+    def taken(self) -> NDArray[np.float64]:
+        """Return the bounds in the map of the faces that stay, are hidden, or lie where Blender has put them because of pins, (b, 4)."""
+        rows = ~np.isin(self._of_face[self.corners.faces], np.setdiff1d(self.changed, self.with_pins))
+        starts = np.flatnonzero(np.diff(self.corners.faces[rows], prepend=-1))
+        if self._uvs is None or not len(starts):
             return np.empty((0, 4))
-        staying = ~np.isin(self._of_face[self.corners.faces], self.changed)
-        starts = np.flatnonzero(np.diff(self.corners.faces[staying], prepend=-1))
-        uvs = self._uvs[staying].astype(np.float64)
-        if not len(starts):
-            return np.empty((0, 4))
+        uvs = uv_map.read_uvs(self.obj)[rows].astype(np.float64)
         return np.concatenate([np.minimum.reduceat(uvs, starts), np.maximum.reduceat(uvs, starts)], axis=1)
-
-    def pinned_down(self) -> NDArray[np.float64]:
-        """Return the bounds of the triangles of changed islands with pins, (b, 4), as Blender has unwrapped them."""
-        rows = np.isin(self._labels, self.with_pins)
-        return boxes_of(uv_map.read_uvs(self.obj)[self._triangles[rows]].astype(np.float64))
 
     def areas(self) -> NDArray[np.float64]:
         """Return the areas of the islands in the old map and on the model, (2, count)."""
-        in_map = uv_areas(self._before[self._triangles])
+        in_map = uv_areas(self.before[self._triangles])
         return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
-
-    def densities(self, fallback: float) -> NDArray[np.float64]:
-        """Return the texel density of each island, (count,): what was one island in the map has one still."""
-        sums = np.stack([np.bincount(self._families, areas, self.count) for areas in self.areas()])[:, self._families]
-        known = (sums > 0.0).all(axis=0)
-        return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
-
-    def shapes(self) -> list[ShapedIsland]:
-        """Return the shapes of the islands that were flattened."""
-        corners, labels = self.corners, self._of_face[self.corners.faces]
-        edges = np.where(self._seams[corners.edges], -1, corners.edges)
-        labels = np.where(np.isin(labels, self.flat), labels, -1)
-        return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
-
-    def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each unwrapped island that needs a place, and what it is now. A `density` is for those without one."""
-        densities = self.densities(density)
-        after = uv_map.read_uvs(self.obj)
-        islands = []
-        order = np.argsort(self._labels, kind="stable")
-        starts = np.searchsorted(self._labels[order], np.arange(self.count + 1))
-        for label in np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)).tolist():
-            rows = order[starts[label] : starts[label + 1]]
-            corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
-            triangles = triangles.reshape(-1, 3)
-            uvs = [each[corners].astype(np.float64) for each in (self._before, after)]
-            density, is_straight = float(densities[label]), bool(self._are_straight[label])
-            new = NewIsland(*uvs, triangles, self._areas[rows], density, self.aspect, is_straight)
-            islands.append((corners, new))
-        return islands
 
     def restore(self) -> None:
         """Give all corners the UVs that they had."""
@@ -340,43 +221,17 @@ class _Map:
                 if number in places:
                     loop[layer].uv = places[number]
 
-    def mapped(self) -> MappedSurface:
-        """Return the visible faces with the UVs that the mesh has."""
-        arrays = self._arrays
-        uvs = uv_map.read_uvs(self.obj)
-        rows = self._with_area(uvs)
-        corners = self._triangles[rows]
-        polygons = self.corners.faces[corners[:, 0]].astype(np.int32)
-        triangles = self.corners.vertices[corners]
-        return MappedSurface(arrays.in_object, triangles, polygons, self._labels[rows], uvs[corners], arrays.edges)
-
-    def _with_area(self, uvs: NDArray[np.float32]) -> NDArray[np.int64]:
-        """Return the triangles without those that lie on a straight line in the map and on the model."""
-        vanish = np.flatnonzero(self._straight.vanish(self._triangles))
-        places = uvs[self._triangles[vanish]].astype(np.float64)
-        longest = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2).max(axis=1, initial=0.0)
-        return np.delete(np.arange(len(self._labels)), vanish[2.0 * uv_areas(places) <= _ON_LINE * longest])
+    def mapped(self) -> tuple[seamwire_core.UnwrapMesh, NDArray[np.int64], NDArray[np.float32]]:
+        """Return the mesh, the changed islands, and the UVs that the mesh has."""
+        return self.mesh, self.changed, uv_map.read_uvs(self.obj)
 
     def unmapped(self) -> int:
         """Return how many hidden faces have no area in the UV map that the mesh has."""
-        if not len(self._hidden):
-            return 0
-        uvs = uv_map.read_uvs(self.obj).astype(np.float64)
-        return int(flat_faces(self._arrays.in_object, self.corners, self._hidden, uvs)[0].sum())
-
-    def homes(self) -> NDArray[np.float64]:
-        """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
-        middles = self._before[self._triangles].mean(axis=1)
-        sizes = np.bincount(self._labels, minlength=self.count)
-        sums = np.stack([np.bincount(self._labels, column, self.count) for column in middles.T], axis=1)
-        return np.floor(sums / np.maximum(sizes, 1)[:, None])
+        return self.mesh.count_unmapped(uv_map.read_uvs(self.obj)) if (self._of_face < 0).any() else 0
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
-        uvs = uv_map.read_uvs(self.obj)
-        rows = self._with_area(uvs)
-        rows = rows[np.isin(self._labels[rows], np.setdiff1d(self.changed, self.with_pins))]
-        corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
+        corners, places = self.mesh.turn_back(uv_map.read_uvs(self.obj), np.setdiff1d(self.changed, self.with_pins))
         self.write(corners, places)
         return len(corners) > 0
 
@@ -386,11 +241,22 @@ class _Map:
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
         plain, seam = self._signs(np.array([False, True])).tolist()
         # New faces may meet at edges that have one face so far.
-        between = self._between.tolist()
+        visible = self.corners.edges[self._of_face[self.corners.faces] >= 0]
+        between = (np.bincount(visible, minlength=len(self._seams)) == 2).tolist()
         for edge in bm.edges:
             if not edge.hide:
                 edge[layer] = (seam if edge.seam else plain) if between[edge.index] else 0
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
+
+
+class _Copy(NamedTuple):
+    """An island that lies on another one: its map, number and corners, and the other map and the corners below."""
+
+    found: _Map
+    label: int
+    corners: NDArray[np.int32]
+    other: _Map
+    below: NDArray[np.int32]
 
 
 def unwrap_changed(
@@ -404,7 +270,7 @@ def unwrap_changed(
     """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
 
     Where nothing stays, all flattened islands are packed. Else each new island gets the texel density it had, and a place near its old
-    one, see `core.uv_islands.place`; islands with pinned corners stay where Blender's unwrap puts them.
+    one, see ``seamwire_core.place_islands``; islands with pinned corners stay where Blender's unwrap puts them.
 
     Parameters
     ----------
@@ -459,15 +325,16 @@ def unwrap_changed(
     return Unwrapped(unwrapped, kept, faults, unmapped, problems, [found.obj for found in maps])
 
 
+def faults_of(obj: bpy.types.Object, *, may_stack: bool = False) -> MapFaults:
+    """Measure what is wrong with the UV map of an edit mesh, which must have one. Islands `may_stack`: lie exactly on each other."""
+    found = _Map(obj, every=True, by_library=True)
+    return MapFaults(*native.load().map_faults([(*found.mapped(), None)], may_stack=may_stack))
+
+
 def _faults(maps: Sequence[_Map]) -> MapFaults:
     """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
-    chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
-    return find_faults(
-        joined([found.mapped() for found in maps]),
-        chosen,
-        np.concatenate([found.homes() for found in maps]),
-        may_stack=any(len(found.stacked) for found in maps),
-    )
+    mapped = [(*found.mapped(), found.before) for found in maps]
+    return MapFaults(*native.load().map_faults(mapped, may_stack=any(len(found.stacked) for found in maps)))
 
 
 def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method: str) -> None:
@@ -483,72 +350,62 @@ def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method:
             raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
 
 
-def _lay_out(solved: Mapping[_Map, Solved], layout: Layout | None) -> None:
-    """Give flattened islands a place each in the UV square, all at one scale: packed as a layout says, or in rows without one."""
+def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
+    """Give unwrapped islands a place each: beside those that stay, or packed as a layout says where nothing stays."""
+    taken = np.concatenate([found.taken() for found in maps])
+    if len(taken):  # where nothing stays, Blender has packed its islands
+        solved = {found: solved.get(found) or found.unwrapped() for found in maps if len(found.changed)}
     if not solved:
         return
-    offsets = np.cumsum([0, *(int(labels.max()) + 1 for _, _, labels in solved.values())])
-    labels = np.concatenate([own + offset for (_, _, own), offset in zip(solved.values(), offsets[:-1], strict=True)])
-    if layout is None:
-        placed = in_rows(np.concatenate([flat / (found.aspect, 1.0) for found, (_, flat, _) in solved.items()]), labels)
+    sums = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
+    if not (sums > 0.0).all():  # the islands may cover a quarter of the square
+        sums = np.array([0.25, max(sum(found.areas()[1].sum() for found in maps), 1e-300)])
+    density = float(np.sqrt(sums[0] / sums[1]))
+    starts = np.cumsum([0, *(len(corners) for corners, _, _ in solved.values())])
+    firsts = np.cumsum([0, *(int(labels.max(initial=-1)) + 1 for _, _, labels in solved.values())])
+    places = np.concatenate([own for _, own, _ in solved.values()])
+    labels = np.concatenate([own + first for (_, _, own), first in zip(solved.values(), firsts, strict=False)])
+    parts = [found.to_place(corners, density) for found, (corners, _, _) in solved.items()]
+    triangles = np.concatenate([own.triangles + start for own, start in zip(parts, starts, strict=False)])
+    numbers, rows, islands = np.unique(labels[triangles[:, 0]], return_index=True, return_inverse=True)
+    aspects = np.repeat([found.aspect for found in solved], [len(own.triangles) for own in parts])[rows]
+    placements = np.zeros((firsts[-1], 2, 3))
+    if len(taken):
+        _, before, areas, straight = (np.concatenate(each) for each in zip(*parts, strict=True))
+        areas = np.bincount(islands, areas, len(numbers))
+        placements[numbers] = native.load().place_islands(
+            before, places, triangles, islands, areas, taken=taken, aspects=aspects, straight=straight[rows]
+        )
     else:
-        placed = _packed(solved, labels, layout)
-    ends = np.cumsum([len(corners) for corners, _, _ in solved.values()])
-    for (found, (corners, _, _)), own in zip(solved.items(), np.split(placed, ends[:-1]), strict=True):
+        turns = "quarters" if layout.upright else "any"
+        packing = native.load().pack_islands(places[triangles], islands, margin=MARGIN, turns=turns, aspects=aspects)
+        placements[numbers] = packing.placements
+    placed = np.einsum("cij,cj->ci", placements[labels, :, :2], places) + placements[labels, :, 2]
+    for (found, (corners, _, _)), own in zip(solved.items(), np.split(placed, starts[1:-1]), strict=True):
         found.write(corners, own)
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
-def _packed(solved: Mapping[_Map, Solved], labels: NDArray[np.int64], layout: Layout) -> NDArray[np.float64]:
-    """Pack the islands of flattened corners, of which `labels`, (c,), are the islands, into the UV square. Copies count once."""
-    rows = [found.rows_of(corners) for found, (corners, _, _) in solved.items()]
-    offsets = np.cumsum([0, *(len(corners) for corners, _, _ in solved.values())])
-    triangles = np.concatenate([own + offset for own, offset in zip(rows, offsets[:-1], strict=True)])
-    flat = np.concatenate([uvs for _, uvs, _ in solved.values()])
-    aspects = np.ones(int(labels.max()) + 1)
-    aspects[labels] = np.repeat([found.aspect for found in solved], np.diff(offsets))
-    numbers, islands = np.unique(labels[triangles[:, 0]], return_inverse=True)
-    turns = "quarters" if layout.upright else "any"
-    packing = native.load().pack_islands(
-        flat[triangles], islands.reshape(-1), margin=MARGIN, turns=turns, aspects=aspects[numbers]
-    )
-    placements = np.zeros((len(aspects), 2, 3))
-    placements[numbers] = packing.placements
-    return np.einsum("cij,cj->ci", placements[labels, :, :2], flat) + placements[labels, :, 2]
-
-
-def _find_copies(maps: Sequence[_Map]) -> list[uv_map.Copy]:
+def _find_copies(maps: Sequence[_Map]) -> list[_Copy]:
     """Find the islands that lie on others, for each width of the image that the UVs lie on."""
     copies = []
     for aspect in dict.fromkeys(found.aspect for found in maps):
         own = [found for found in maps if found.aspect == aspect]
-        copies += uv_map.copies_among([(found.obj, shape) for found in own for shape in found.shapes()])
+        for mesh, label, corners, other, below in native.load().island_copies([(each.mesh, each.flat) for each in own]):
+            copies.append(_Copy(own[mesh], label, corners, own[other], below))
     for found in maps:
-        found.stacked = np.array([copy.label for copy in copies if copy.obj == found.obj], dtype=np.int64)
+        found.stacked = np.array([copy.label for copy in copies if copy.found is found], dtype=np.int64)
     return copies
 
 
-def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
+def _pile_up(maps: Sequence[_Map], copies: Sequence[_Copy]) -> None:
     """Lay copies on the islands that have a place."""
-    present = {obj: uv_map.read_uvs(obj) for obj in dict.fromkeys(copy.other for copy in copies)}
+    present = {other: uv_map.read_uvs(other.obj) for other in dict.fromkeys(copy.other for copy in copies)}
     for found in maps:
-        own = [copy for copy in copies if copy.obj == found.obj]
+        own = [copy for copy in copies if copy.found is found]
         if own:
             uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
             found.write(np.concatenate([copy.corners for copy in own]), uvs)
-
-
-def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
-    """Move new islands to where there is room among those that stay, or pack the flattened ones where nothing stays."""
-    taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
-    _lay_out(solved, None if len(taken) else layout)
-    if not len(taken):
-        return
-    in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
-    density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
-    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
-    for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken), strict=True):
-        found.write(corners, uvs)
 
 
 @contextmanager

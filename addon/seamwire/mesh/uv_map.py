@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The active UV map of an edit mesh as arrays, and islands of the same shape that lie on each other in it."""
+"""The active UV map of an edit mesh as arrays."""
 
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
-from ..core.islands.copies import ShapedIsland, find_copies
 from ..core.islands.uv_islands import Corners
 from . import edit_mesh
 from .versions import IS_OLD
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
@@ -24,10 +23,7 @@ def corners_of(data: bpy.types.Mesh) -> Corners:
     """Read the corners of a mesh that edit mode does not hold."""
     vertices, edges = (edit_mesh.column(data.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
     starts = edit_mesh.column(data.polygons, "loop_start", np.int32)
-    sizes = np.diff(starts, append=len(vertices))
-    following = np.arange(1, len(vertices) + 1)
-    following[starts + sizes - 1] = starts
-    return Corners(vertices, edges, np.repeat(np.arange(len(starts)), sizes), following)
+    return Corners(vertices, edges, np.diff(starts, append=len(vertices)))
 
 
 def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
@@ -84,23 +80,3 @@ def pinned_of(data: bpy.types.Mesh) -> NDArray[np.bool_]:
     # The attribute of newer versions is empty while nothing is pinned.
     items, name = ((), "") if layer is None else (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
     return edit_mesh.column(items, name, np.bool_) if count and len(items) == count else np.zeros(count, dtype=bool)
-
-
-class Copy(NamedTuple):
-    """An island that lies on another one: its object, number and corners, and the other object and the corners below."""
-
-    obj: bpy.types.Object
-    label: int
-    corners: NDArray[np.int64]
-    other: bpy.types.Object
-    below: NDArray[np.int64]
-
-
-def copies_among(islands: Sequence[tuple[bpy.types.Object, ShapedIsland]]) -> list[Copy]:
-    """Return the islands that are copies of earlier ones, on the first of their shape. The islands lie on images of one shape."""
-    copies = []
-    for number, (first, corners) in enumerate(find_copies([island.shape for _, island in islands])):
-        if first != number:
-            (obj, island), (other, below) = islands[number], islands[first]
-            copies.append(Copy(obj, island.label, island.corners, other, below.corners[corners]))
-    return copies

@@ -109,9 +109,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
 
         found = {}
         for mesh in meshes:
-            arrays = mesh.arrays
-            finder = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
-            gaps = finder.find(arrays.seams, self.longest)
+            gaps = GapFinder(mesh.make_live.wait, mesh.arrays.partly_hidden).find(mesh.arrays.seams, self.longest)
             if gaps:
                 found[mesh] = gaps
         return found

@@ -16,8 +16,7 @@ from mathutils import Matrix
 
 from ..core.islands.islands import IslandMaker
 from ..core.network.drawn import edges_after
-from ..core.picking.picker import Picker
-from ..core.picking.plain import REACH
+from ..core.picking.picker import REACH, Picker
 from ..core.seams.gaps import GapFinder
 from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
@@ -47,6 +46,9 @@ if TYPE_CHECKING:
     from ..terms.options import Options
     from .layers import Layer
     from .viewport import Place
+
+STROKE_REACH = 12.0
+"""Pixels beside a stroke in which it is found."""
 
 
 class ShownIslands:
@@ -149,7 +151,6 @@ class ObjectView:
         self.mesh = ObjectSession(obj, chosen.snapshot(settings, obj.data))
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
-        gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
         closed = self._closed = threading.Event()
 
@@ -157,9 +158,10 @@ class ObjectView:
             return not closed.is_set()
 
         segments = partial(make.face_segments, progress=goes_on)
+        self._surface = partial(make.wait, goes_on)
+        gaps = GapFinder(self._surface, arrays.partly_hidden)
         self._islands = IslandMaker(arrays.triangles, segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
-        self._surface = partial(make.wait, goes_on)
         self.crest_view = CrestView(self._surface, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
@@ -380,12 +382,13 @@ class ObjectView:
 
     def depth(self, view: Camera, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
-        return self._follow_picker().depth(view, self.obj.matrix_world, cursor)
+        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
+        return None if found is None else found.depth
 
     def surface_at(self, view: Camera, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
         found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
-        return None if found is None else (self.pose.at_rest(*found), found[1])
+        return None if found is None else (self.pose.at_rest(found.place, found.triangle), found.triangle)
 
     def is_on_mirrored_half(self, view: Camera, cursor: tuple[float, float]) -> bool:
         """Return whether the cursor is over faces that only a Mirror modifier shows."""
@@ -394,9 +397,11 @@ class ObjectView:
 
     def stroke_at(self, view: Camera, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor, which may still wait."""
-        scale = bpy.context.preferences.system.ui_scale
-        matrix, strokes = self.obj.matrix_world, self.session.picture.strokes
-        return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
+        scale, xray = bpy.context.preferences.system.ui_scale, self.options.xray
+        strokes = self.session.picture.strokes[::-1]  # of equally near ones, the last
+        curves = [stroke.points for stroke in strokes]
+        found = self._follow_picker().curve_at(curves, STROKE_REACH, view, self.obj.matrix_world, cursor, xray, scale)
+        return None if found is None else strokes[found[0]]
 
     def turned_at(self, place: Place | None) -> Wire | None:
         """Return the wire that was given another path here, as it runs now, or None. Forget it if the mouse is elsewhere."""

@@ -18,8 +18,7 @@ from gpu_extras.batch import batch_for_shader
 from ..core.base import native
 from ..core.base.newest import Newest
 from ..core.islands.islands import IslandMaker
-from ..core.picking.camera import Segments, Sight
-from ..core.picking.surface import VisibleSurface
+from ..core.picking.picker import Picker
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose
 from .edited_objects import edited
@@ -158,11 +157,10 @@ class _ObjectPreview:
         self._arrays = replace(arrays, points=arrays.in_object, to_object=np.eye(3))
         self._pose = Pose(self._arrays)
         self._pose.follow(obj)
-        self._surface = self._posed_surface()  # threads prepare it
+        self._picker = self._posed_picker()  # threads prepare it
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(arrays.surface, cuts)))
         self._curves = Curves()
         self._seen: list[NDArray[np.float64]] = []  # the curves that the mouse finds, where the mesh is seen
-        self._segments = Segments(self._seen)
         self._lines: Sheet | None = None
         self._faces: ColoredFaces | None = None
         self._parts = 0  # counts other parts, whose maps are different ones
@@ -204,13 +202,12 @@ class _ObjectPreview:
     def repose(self) -> None:
         if self._pose.follow(self.obj):
             self._faces = self._tinted = self._checks = None
-            self._surface = self._posed_surface()
+            self._picker = self._posed_picker()
             self._place_curves()
 
     def _place_curves(self) -> None:
         before, self._lines = self._seen, None
         self._seen = [self._pose.places(curve) for curve in (*self._curves.borders, *self._curves.dropped)]
-        self._segments = Segments(self._seen)
         if len(before) != len(self._seen) or not all(map(np.array_equal, before, self._seen)):
             self.hovered = None  # other slits alone leave the highlight where it is
 
@@ -225,26 +222,20 @@ class _ObjectPreview:
 
     # Under the mouse
 
-    def _posed_surface(self) -> VisibleSurface:
-        return VisibleSurface(replace(self._arrays, points=self._pose.points))
+    def _posed_picker(self) -> Picker:
+        return Picker(replace(self._arrays, points=self._pose.points))
 
     def at(self, place: Place) -> tuple[float, Pointed] | None:
         """Return what is under the mouse, and how far away it is; None if it is nothing of the object."""
         scale, xray = bpy.context.preferences.system.ui_scale, sees_through(place.area.spaces.active)
-        sight = Sight.of(place.view, self.obj.matrix_world, place.cursor, scale, xray)
-        if sight is None or not self.obj.visible_in_viewport_get(place.area.spaces.active):
+        if not self.obj.visible_in_viewport_get(place.area.spaces.active):
             return None
-        near = place.view.ray(place.cursor)[0]
-
-        def away(spot: NDArray[np.float64]) -> float:
-            return float(np.linalg.norm(sight.to_world(spot) - near))
-
-        hit = self._surface.cast(sight, place.cursor)
-        triangle = None if hit is None else hit[0]
-        for border, spot in self._segments.near(sight, _REACH * scale):
-            if self._surface.can_pick(sight, spot):
-                return away(spot if hit is None else hit[1]), Pointed(self.obj, border, triangle)
-        return None if hit is None else (away(hit[1]), Pointed(self.obj, None, triangle))
+        where = place.view, self.obj.matrix_world, place.cursor
+        hit = self._picker.surface_at(*where)
+        border, depth = self._picker.curve_at(self._seen, _REACH, *where, xray, scale) or (None, None)
+        if hit is not None:
+            return hit.depth, Pointed(self.obj, border, hit.triangle)
+        return None if depth is None else (depth, Pointed(self.obj, border, None))
 
     # Drawing
 

@@ -95,8 +95,7 @@ class StretchHeat(Layer):
             uvs = uv_map.read_uvs(obj)
         self._missing = uvs is None
         if uvs is not None:
-            found = self._islands.answer
-            self._stretch.update(uvs, None if found is None else found.labels)
+            self._stretch.update(uvs)
         self._revision += 1
 
     @property

@@ -14,7 +14,7 @@ from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import FOLLOWS, Wire
-from seamwire.core.offers.edge_loops import KIND_COSTS
+from seamwire.core.offers.edge_loops import KINDS
 from seamwire.terms.choices import ALONG, FINISHES, METRICS
 from seamwire_networks import network_file
 from seamwire_networks.network_file import NetworkFile, NetworkFileError
@@ -115,7 +115,7 @@ def test_the_schema_has_the_values_of_the_tables() -> None:
     assert SCHEMA["properties"]["metric"]["enum"] == list(METRICS)
     assert wires["along"]["enum"] == list(ALONG)
     assert wires["finish"]["enum"] == list(FINISHES)
-    assert sorted(wires["kind"]["enum"]) == sorted(KIND_COSTS)
+    assert sorted(wires["kind"]["enum"]) == sorted(KINDS)
     assert wires["follow"]["enum"] == list(range(len(FOLLOWS)))
     assert strokes["acts_on"]["enum"] == ["both", *FOLLOWS]
 

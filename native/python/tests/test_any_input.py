@@ -160,3 +160,20 @@ def test_rays(rays: tuple[object, object]) -> None:
 
 
 RAYS = sw.RayTree(POINTS, TRIANGLES)
+
+
+@given(one=anything, other=anything, number=numbers)
+def test_pickers(one: object, other: object, number: float) -> None:
+    taken_or_refused(lambda: sw.Picker(POINTS, TRIANGLES, one, other, np.eye(3)))
+    taken_or_refused(lambda: sw.Picker(POINTS, TRIANGLES, FACES, [], one))
+    taken_or_refused(lambda: PICKER.set_layer(0, one, other, number, vertices=one))
+    taken_or_refused(lambda: PICKER.set_vertices(one, number, other))
+    taken_or_refused(lambda: PICKER.pick(*SIGHT, layers=(0,), preferred=True, features=True, crests=0))
+    taken_or_refused(lambda: PICKER.pick(*SIGHT, layers=one))
+    taken_or_refused(lambda: PICKER.pick(one, other, (9, 9), (1, 1)))
+    taken_or_refused(lambda: PICKER.pick(np.eye(4), np.eye(4), one, other, other, number))
+
+
+FACES = np.arange(len(TRIANGLES))
+PICKER = sw.Picker(POINTS, TRIANGLES, FACES, TRIANGLES[:, :2], np.eye(3))
+SIGHT = np.diag([1.0, 1.0, 0.1, 1.0]), np.eye(4), (9, 9), (4.5, 8)

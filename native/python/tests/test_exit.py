@@ -58,6 +58,7 @@ WORK = {
     "giving up live wires": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).seed(0)"),
     "flattening": ("p, t = meshes.torus(60, 40)", "sw.flatten(p, t)"),
     "rays": ("p, t = meshes.grid(60)", "sw.RayTree(p, t).wait()"),
+    "picker": ("p, t = meshes.grid(60)", "sw.Picker(p, t, t[:, 0], t[:, :2], np.eye(3)).wait()"),
 }
 
 

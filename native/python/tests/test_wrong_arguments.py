@@ -21,6 +21,7 @@ UVS = POINTS[TRIANGLES][:, :, :2]
 POLYGONS = np.arange(len(TRIANGLES), dtype=np.int32)
 RAYS = sw.RayTree(POINTS, TRIANGLES)
 NEAREST = sw.NearestPoints(POINTS, TRIANGLES)
+PICKER = sw.Picker(POINTS, TRIANGLES, POLYGONS, [], np.eye(3))
 PARTS = sw.PartFinder(SURFACE)
 PLAN = sw.plan_cuts(POINTS, TRIANGLES, POLYGONS, [])
 EDGES = sw.LiveWire(POINTS, TRIANGLES, along="edges")
@@ -58,6 +59,14 @@ ROWS: dict[tuple[str, str], Call] = {
     ("LiveWire", "edges"): lambda bad: sw.LiveWire(POINTS, TRIANGLES, bad),
     ("RayTree", "points"): lambda bad: sw.RayTree(bad, TRIANGLES),
     ("RayTree", "triangles"): lambda bad: sw.RayTree(POINTS, bad),
+    ("Picker", "points"): lambda bad: sw.Picker(bad, TRIANGLES, POLYGONS, [], np.eye(3)),
+    ("Picker", "triangles"): lambda bad: sw.Picker(POINTS, bad, POLYGONS, [], np.eye(3)),
+    ("Picker", "edges"): lambda bad: sw.Picker(POINTS, TRIANGLES, POLYGONS, bad, np.eye(3)),
+    ("Picker", "to_object"): lambda bad: sw.Picker(POINTS, TRIANGLES, POLYGONS, [], bad),
+    ("Picker.set_layer", "ends"): lambda bad: PICKER.set_layer(0, bad, [], 1.0),
+    ("Picker.pick", "perspective"): lambda bad: PICKER.pick(bad, np.eye(4), (9, 9), (1, 1)),
+    ("Picker.pick", "matrix"): lambda bad: PICKER.pick(np.eye(4), bad, (9, 9), (1, 1)),
+    ("Picker.pick", "clip_planes"): lambda bad: PICKER.pick(np.eye(4), np.eye(4), (9, 9), (1, 1), bad),
     ("NearestPoints", "points"): lambda bad: sw.NearestPoints(bad, TRIANGLES),
     ("NearestPoints", "triangles"): lambda bad: sw.NearestPoints(POINTS, bad),
     ("NearestPoints.find", "places"): lambda bad: NEAREST.find(bad),
@@ -109,6 +118,11 @@ LISTS: dict[tuple[str, str], Call] = {
     ("isolines", "levels"): lambda bad: sw.isolines(SURFACE, np.zeros(len(POINTS)), bad),
     ("DistanceField.trace_many", "vertices"): lambda bad: FIELD.trace_many(bad),
     ("Embedding.with_lengths", "lengths"): lambda bad: EMBEDDING.with_lengths(bad),
+    ("Picker", "polygons"): lambda bad: sw.Picker(POINTS, TRIANGLES, bad, [], np.eye(3)),
+    ("Picker.set_layer", "owners"): lambda bad: PICKER.set_layer(0, POINTS[:2], bad, 1.0),
+    ("Picker.set_vertices", "strengths"): lambda bad: PICKER.set_vertices(bad, 0.0, []),
+    ("Picker.set_vertices", "preferred"): lambda bad: PICKER.set_vertices([], 0.0, bad),
+    ("Picker.pick", "layers"): lambda bad: PICKER.pick(np.eye(4), np.eye(4), (9, 9), (1, 1), layers=bad),
     ("PartFinder.find", "parted"): lambda bad: PARTS.find(parted=bad),
     ("SeamPlanner", "weights"): lambda bad: sw.SeamPlanner(SURFACE, weights=bad),
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -14,6 +13,7 @@
 #include "detail/poll.hpp"
 #include "slits/slit_paths.hpp"
 #include "slits/slit_plan.hpp"
+#include "surface/twins.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -44,21 +44,6 @@ struct Quadric {
 double longest_square(const std::array<Vector, 3>& corners) {
   const auto& [a, b, c] = corners;
   return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-}
-
-/// The twin of each half-edge: the one that joins the same vertices the other way.
-std::vector<std::int32_t> twins_of(const std::vector<Triangle>& triangles) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> half_edges;
-  for (std::size_t h = 0; h < 3 * triangles.size(); ++h) {
-    const Triangle& t = triangles[h / 3];
-    half_edges[{t[h % 3], t[(h + 1) % 3]}] = static_cast<std::int32_t>(h);
-  }
-  std::vector<std::int32_t> twins(3 * triangles.size(), -1);
-  for (const auto& [ends, h] : half_edges) {
-    const auto twin = half_edges.find({ends.second, ends.first});
-    if (twin != half_edges.end()) twins[h] = twin->second;
-  }
-  return twins;
 }
 
 /// A mesh whose edges are being collapsed.
@@ -370,7 +355,7 @@ DecimatedMesh Collapsing::result(const Task& task) const {
     const Triangle& t = triangles_[f];
     out.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   }
-  out.mesh.twins = twins_of(out.mesh.triangles);
+  out.mesh.twins = twins_of(out.mesh.triangles, half_edges_by_edge(out.mesh.triangles));
   out.mesh.scale = mesh_.scale;
   connect(out.mesh, std::nullopt, task);
   for (const std::int32_t h : out.mesh.half_edge_of) {

@@ -5,65 +5,65 @@
 #include <unordered_set>
 
 #include "edges/edge_adjacency.hpp"
+#include "edges/straight_ways.hpp"
 
 namespace seamwire {
 
 using namespace detail;
 
-std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
-                                          std::span<const std::int32_t> stops) {
+namespace {
+
+auto any_of(std::span<const std::int32_t> stops) {
+  return [at = std::unordered_set<std::int32_t>(stops.begin(), stops.end())](std::int32_t v) { return at.contains(v); };
+}
+
+}  // namespace
+
+std::int32_t detail::straight_on(const EdgeAdjacency& adjacency, std::int32_t edge) {
   // 1 - cos 60 degrees, a little less: a vertex of three equal angles offers two ways of 60 degrees and no way on.
   constexpr double kMostTurn = 0.5 - 1e-9;
-  std::int32_t e = adjacency.checked(edge, "edge");
-  const std::unordered_set<std::int32_t> stop_at(stops.begin(), stops.end());
-  std::unordered_set<std::int32_t> visited{edge[0], edge[1]};
-  std::vector<std::int32_t> chain{edge[1]};
-  for (std::int32_t v = edge[1];;) {
-    const std::int32_t back = adjacency.twin(e);
-    if (adjacency.is_open(v) && !adjacency.is_on_boundary(back, v)) break;
-    std::int32_t best = -1;
-    double least = kMostTurn;
-    for (std::int32_t out = adjacency.begin(v); out < adjacency.end(v); ++out) {
-      if (out == back) continue;
-      const double turn = adjacency.turn(back, out);
-      if (turn < least) {
-        least = turn;
-        best = out;
-      }
-    }
-    if (best < 0) break;
-    e = best;
-    v = adjacency.head(e);
-    chain.push_back(v);
-    if (stop_at.contains(v) || !visited.insert(v).second) break;
+  const std::int32_t v = adjacency.head(edge), back = adjacency.twin(edge);
+  if (adjacency.is_open(v) && !adjacency.is_on_boundary(back, v)) return -1;
+  std::int32_t best = -1;
+  double least = kMostTurn;
+  for (std::int32_t out = adjacency.begin(v); out < adjacency.end(v); ++out) {
+    const double turn = adjacency.turn(back, out);
+    if (out == back || !(turn < least)) continue;
+    least = turn;
+    best = out;
   }
-  return chain;
+  return best;
+}
+
+std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
+                                          std::span<const std::int32_t> stops) {
+  return detail::extend_straight(adjacency, adjacency.checked(edge, "edge"), any_of(stops));
 }
 
 EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<const std::int32_t> stops) {
-  const std::int32_t start = adjacency.checked(edge, "edge");
-  const std::unordered_set<std::int32_t> stop_at(stops.begin(), stops.end());
-  std::unordered_set<std::int32_t> visited{edge[0], edge[1]};
-  // On from the head of a directed edge; whether the way comes round to the edge that it started from.
-  const auto walk = [&](std::int32_t e, std::vector<std::int32_t>& way) {
-    while (!stop_at.contains(adjacency.head(e))) {
-      e = adjacency.opposite(adjacency.twin(e));
-      if (e < 0) break;
-      way.push_back(adjacency.head(e));
-      if (!visited.insert(way.back()).second) return adjacency.opposite(adjacency.twin(e)) == start;
-    }
-    return false;
-  };
+  return detail::edge_loop(adjacency, adjacency.checked(edge, "edge"), any_of(stops));
+}
 
-  std::vector<std::int32_t> ahead{edge[1]}, behind{edge[0]};
-  if (!walk(start, ahead)) walk(adjacency.twin(start), behind);
-  EdgeLoop loop{{behind.rbegin(), behind.rend()}};
-  loop.vertices.insert(loop.vertices.end(), ahead.begin(), ahead.end());
-  // Not where both ends cross the strip at one of its inner vertices.
-  loop.closed =
-      loop.vertices.front() == loop.vertices.back() && std::ranges::count(loop.vertices, loop.vertices.front()) == 2;
-  if (loop.closed) loop.vertices.pop_back();
-  return loop;
+std::int32_t count_corners(const Surface& surface, const EdgeAdjacency& adjacency, std::span<const std::int32_t> loop) {
+  constexpr double kCosine = 0.5;
+  const std::size_t n = loop.size();
+  const auto next = [&](std::int32_t a, std::int32_t b) {
+    const std::int32_t edge = adjacency.find(a, b), on = edge < 0 ? -1 : straight_on(adjacency, edge);
+    return on < 0 ? -1 : adjacency.head(on);
+  };
+  std::int32_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t before = loop[(i + n - 1) % n], here = loop[i], after = loop[(i + 1) % n];
+    const std::int32_t forth = next(before, here), back = next(after, here);
+    if (forth < 0 || forth == after || back < 0 || back == before || back == forth) continue;
+    const auto turns = [&](std::int32_t one, std::int32_t two) {
+      const Vector u = surface.points()[one] - surface.points()[here],
+                   v = surface.points()[two] - surface.points()[here];
+      return u.dot(v) <= kCosine * (u.norm() * v.norm());
+    };
+    if (turns(forth, after) && turns(back, before)) ++count;
+  }
+  return count;
 }
 
 }  // namespace seamwire

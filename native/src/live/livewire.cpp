@@ -313,7 +313,9 @@ LiveLoop LiveWire::loop(const Edge& edge) {
     if (!loop) return {};
     if (loop->length < cheapest.length) cheapest = std::move(*loop);
   }
-  return {.vertices = std::move(cheapest.vertices), .length = cheapest.length, .final = true};
+  const auto adjacency = impl_->context.edge_adjacency();  // the workers have computed it
+  const std::int32_t corners = count_corners(*surface, *adjacency, cheapest.vertices);
+  return {.vertices = std::move(cheapest.vertices), .length = cheapest.length, .corners = corners, .final = true};
 }
 
 LiveClosedWires LiveWire::closed_wires(const SurfacePoint& through) {

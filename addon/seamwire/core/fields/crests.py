@@ -123,16 +123,3 @@ class Crests:
             return None
         kind: LoopKind = "RIDGE" if self.ridges[number] else "VALLEY"
         return Wire("SURFACE", (), self.line(number)[0], pick, pick, kind=kind)
-
-    def place_at(self, piece: int, place: NDArray[np.float64]) -> tuple[NDArray[np.float64], int, int]:
-        """Return the point of a piece that is nearest to a place, (3,), its triangle, and the vertex that it is nearest to.
-
-        That is the one of both vertices of the edge at the nearer end of the piece.
-        """
-        start = self.pieces[piece]
-        ends = self.segments[piece]
-        along = ends[1] - ends[0]
-        square = float(along @ along)
-        part = float(np.clip((place - ends[0]) @ along / square, 0.0, 1.0)) if square > 0.0 else 0.0
-        end = start + round(part)
-        return ends[0] + part * along, int(self.faces[start]), int(self.vertices[end])

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base import native
 from ..base.newest import Newest
 
 if TYPE_CHECKING:
@@ -31,17 +31,10 @@ _CLOSE = 0.2
 """The longest gap of several edges, in lengths of the cut that ends there: the artist may go on at an end farther from others."""
 AT_ONCE = 20_000
 """Triangles up to which the answer takes a few milliseconds, so that a thread would only make it late."""
-_TOLD_APART = 4096
-"""Islands beyond this many are so small that neighbors may share a hue."""
 HUES = 12
 """How many colors islands are told apart by."""
 PLACES = [(4 + 5 * hue) % HUES for hue in range(HUES)]
 """Where each hue lies in the rainbow: hues with numbers next to each other lie far apart in it, and each place comes once."""
-_CLEAR = 3
-"""By how many places in the rainbow the hues of neighbors differ wherever that can be: 60 degrees of the circle of hues, where
-12 hues share two thirds of it."""
-_TOO_NEAR = [sum(1 << other for other in range(HUES) if abs(place - PLACES[other]) < _CLEAR) for place in PLACES]
-"""The hues that are too near to each, as bits."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +121,9 @@ class IslandMaker(Newest[_Request, Islands]):
         if labels.shape != (len(self._triangles),):
             raise ValueError(f"{labels.shape} labels for {len(self._triangles)} triangles")
         count = int(labels.max(initial=-1)) + 1
-        hues = choose_hues(self._inherited(labels, count), neighbours(self._triangles, labels, cuts))
+        before = self.answer
+        former = () if before is None or not before.count else (before.labels, before.hues)
+        hues = native.load().island_hues(self._triangles, labels, cuts, *former)
         of_triangle = hues[labels]
         order = np.argsort(of_triangle, kind="stable")
         bounds = np.searchsorted(of_triangle[order], np.arange(HUES + 1))
@@ -149,104 +144,3 @@ class IslandMaker(Newest[_Request, Islands]):
     def _parts(self) -> int:
         """How many parts the mesh has without cuts."""
         return int(np.max(self._label(np.empty((0, 2), dtype=np.int32)), initial=-1)) + 1
-
-    def _inherited(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
-        """Return the hue that each island keeps, (count,), -1 for what was cut off or is new.
-
-        An island has the hue of the one that most of it belonged to; of several pieces of that, the largest has it.
-        """
-        hues = np.full(count, -1, dtype=np.int64)
-        before = self.answer
-        if before is None or not before.count or max(count, before.count) > _TOLD_APART:
-            return hues
-        shared = np.sort(labels.astype(np.int64) * before.count + before.labels)
-        begin = np.flatnonzero(np.diff(shared, prepend=-1))
-        now, then = np.divmod(shared[begin], before.count)
-        sizes = np.diff(begin, append=len(shared))
-        main = _largest_of_each(now, sizes)
-        now, then, sizes = now[main], then[main], sizes[main]
-        heirs = _largest_of_each(then, sizes)
-        hues[now[heirs]] = before.hues[then[heirs]]
-        return hues
-
-
-def _largest_of_each(groups: NDArray[np.int64], sizes: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return which one is the largest of each group."""
-    order = np.lexsort((sizes, groups))
-    return order[np.diff(groups[order], append=-1) != 0]
-
-
-def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return the pairs of different labels that meet at cut edges, (k, 2), each once, smaller first."""
-    if not len(cuts):
-        return np.empty((0, 2), dtype=np.int32)
-    count = int(max(triangles.max(initial=0), cuts.max())) + 1
-    on_cut = np.zeros(count, dtype=bool)
-    on_cut[cuts] = True
-    # Only triangles with two vertices on cuts can lie at one: few, on a large mesh.
-    near = np.flatnonzero(on_cut[triangles].sum(axis=1) >= 2)
-    corners = triangles[near].astype(np.int64)
-    sides = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
-    keys = sides.min(axis=1) * count + sides.max(axis=1)
-    wanted = cuts.astype(np.int64)
-    at_cut = np.isin(keys, wanted.min(axis=1) * count + wanted.max(axis=1))
-    keys, owners = keys[at_cut], np.repeat(labels[near], 3)[at_cut]
-    order = np.argsort(keys, kind="stable")
-    keys, owners = keys[order], owners[order]
-    same = keys[1:] == keys[:-1]
-    pairs = np.stack([owners[:-1][same], owners[1:][same]], axis=1)
-    pairs = np.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1)
-    return np.unique(pairs, axis=0)
-
-
-def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32]) -> NDArray[np.uint8]:
-    """Choose a hue for each island, (count,), far from those of its neighbors, and one that few others have.
-
-    `inherited`, (count,), has the hue that each keeps, unless a larger neighbor has one too much like it, or -1. The largest islands come
-    first. Pairs of neighbors are (k, 2).
-    """
-    count = len(inherited)
-    if count > _TOLD_APART:
-        return np.where(inherited >= 0, inherited, np.arange(count) % HUES).astype(np.uint8)
-    around: list[list[int]] = [[] for _ in range(count)]
-    for one, two in pairs.tolist():
-        around[one].append(two)
-        around[two].append(one)
-    chosen = [-1] * count
-    used = [0] * HUES
-    # For each island, the hues that are not too near to a neighbor's, as bits.
-    free = [(1 << HUES) - 1] * count
-
-    def settle(island: int, hue: int) -> None:
-        chosen[island] = hue
-        used[hue] += 1
-        for other in around[island]:
-            free[other] &= ~_TOO_NEAR[hue]
-
-    # Old hues stay, the largest islands first. The other islands get new hues when all old ones are known.
-    for island, hue in enumerate(inherited.tolist()):
-        if hue >= 0 and free[island] >> hue & 1:
-            settle(island, hue)
-    # The one with the fewest hues left is next (Brelaz, New methods to color the vertices of a graph, 1979).
-    waiting = [(free[island].bit_count(), island) for island in range(count) if chosen[island] < 0]
-    heapq.heapify(waiting)
-    while waiting:
-        left, island = heapq.heappop(waiting)
-        if chosen[island] >= 0 or left != free[island].bit_count():
-            continue
-        gaps = [HUES] * HUES
-        open_to = [free[other] for other in around[island] if chosen[other] < 0]
-        for other in around[island]:
-            if chosen[other] >= 0:
-                place = PLACES[chosen[other]]
-                gaps = [min(gap, abs(PLACES[hue] - place)) for hue, gap in enumerate(gaps)]
-
-        def merit(hue: int, gaps: list[int] = gaps, open_to: list[int] = open_to) -> tuple[int, int, int, int]:
-            taken = sum((mask & _TOO_NEAR[hue]).bit_count() for mask in open_to)
-            return min(gaps[hue], _CLEAR), -taken, -used[hue], gaps[hue]
-
-        settle(island, max(range(HUES), key=merit))
-        for other in around[island]:
-            if chosen[other] < 0:
-                heapq.heappush(waiting, (free[other].bit_count(), other))
-    return np.array(chosen, dtype=np.uint8)

@@ -3,240 +3,71 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable
+from operator import is_not
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.geometry import nearest_on_segments, triangle_normals
+from ..base import native
 from ..network.network import Snap
 from ..network.picks import FacePoint, place_of
-from .camera import Projected, Segments, Sight
-from .plain import PlainPicker
-from .surface import VisibleSurface
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Sequence
 
+    import seamwire_core
     from numpy.typing import ArrayLike, NDArray
 
     from ..base.mesh_arrays import Arrays
     from ..fields.crests import Crests
     from ..network.picks import Pick
-    from ..network.strokes import Stroke
     from ..network.wires import Wire
     from ..sketch.sketch import Sketch
     from .camera import Camera
-    from .surface import Bend
 
-
-FEATURE_REACH = 10.0
-"""Pixels in which the strongest feature is looked for."""
+Bend = Callable[["NDArray[np.float64]"], "NDArray[np.float64]"]
+REACH = 14.0
+"""Pixels beside the mesh in which the library finds it."""
 FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
-_SHARP_COSINE = float(np.cos(np.radians(30.0)))
-"""An edge counts as a feature if its faces meet at 30 degrees or more, as Blender's Select Sharp Edges takes it."""
-_CORNER = 3
-"""So many such edges meet at a corner."""
-_MOST_TRIED = 4
-"""So many of the vertices near the cursor are tried for one that is not hidden."""
-
-
-class FeaturePicker:
-    """Finds features of a mesh near the cursor."""
-
-    def __init__(self, surface: VisibleSurface) -> None:
-        self._surface = surface
-        self._strength: tuple[object, float] = (None, 0.0)
-        self._crests: tuple[Crests | None, Segments] = (None, Segments([]))
-
-    def near(self, sight: Sight, pick: Pick) -> dict[int, float]:
-        """Return the vertices within reach with their distances in pixels, going over the mesh from what is under the cursor."""
-        return self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
-
-    def preferred_at(self, sight: Sight, near: dict[int, float], preferred: Collection[int]) -> int | None:
-        """Return the nearest of the preferred vertices among those within reach."""
-        return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if vertex in preferred})
-
-    def corner_at(self, sight: Sight, near: dict[int, float]) -> int | None:
-        """Return the nearest vertex within reach where three or more sharp edges meet."""
-        count = dict.fromkeys(near, 0)
-        for edge in self._sharp_edges(near):
-            for vertex in edge:
-                if vertex in count:
-                    count[vertex] += 1
-        return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if count[vertex] >= _CORNER})
-
-    def _sharp_edges(self, vertices: Collection[int]) -> list[tuple[int, int]]:
-        """Return the edges at vertices where the mesh ends, where faces meet at a sharp angle, or where more than two meet."""
-        surface = self._surface
-        triangles = surface.triangles[surface.triangles_at.rows(vertices)]
-        normals = triangle_normals(surface.points, triangles)
-        sides: dict[tuple[int, int], list[NDArray[np.float64]]] = {}
-        for (one, two, three), normal in zip(triangles.tolist(), normals, strict=True):
-            for tail, tip in ((one, two), (two, three), (three, one)):
-                # Faces that agree which side is out have the edge in opposite directions.
-                sides.setdefault((min(tail, tip), max(tail, tip)), []).append(normal if tail < tip else -normal)
-        found = []
-        for one, two in surface.edges[surface.edges_at.rows(vertices)].tolist():
-            beside = sides.get((min(one, two), max(one, two)), [])
-            if len(beside) != 2 or -float(beside[0] @ beside[1]) <= _SHARP_COSINE:
-                found.append((one, two))
-        return found
-
-    def _nearest(self, sight: Sight, gaps: dict[int, float]) -> int | None:
-        """Return the nearest vertex that can be picked. `gaps` tells how far each one is from the cursor."""
-        nearest = sorted(gaps, key=gaps.__getitem__)[:_MOST_TRIED]
-        return next((vertex for vertex in nearest if self._can_pick(sight, vertex)), None)
-
-    def strongest_at(self, sight: Sight, near: dict[int, float], strength: NDArray[np.float64]) -> int | None:
-        """Return the vertex of the strongest feature within reach."""
-        if self._strength[0] is not strength:
-            self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
-        for vertex in sorted(near, key=lambda v: -strength[v])[:_MOST_TRIED]:
-            if strength[vertex] <= self._strength[1]:
-                return None
-            if self._can_pick(sight, vertex):
-                return vertex
-        return None
-
-    def crest_at(self, sight: Sight, crests: Crests, anywhere: bool) -> Pick | None:
-        """Return the nearest point of a ridge or valley within reach of the cursor.
-
-        The point may lie within a triangle if it may lie `anywhere`. Otherwise it is a vertex beside it that is as near.
-        """
-        surface = self._surface
-        if self._crests[0] is not crests:
-            ends = surface.in_object(crests.segments.reshape(-1, 3)).reshape(-1, 2, 3)
-            self._crests = crests, Segments(list(ends))
-        for piece, seen in self._crests[1].near(sight, FEATURE_REACH * sight.scale):
-            if not surface.can_pick(sight, seen):
-                continue
-            place, triangle, vertex = crests.place_at(piece, surface.to_points @ seen)
-            if anywhere:
-                return FacePoint.at(place, triangle, surface.triangles, surface.points)
-            pixel = surface.pixels(sight, [vertex])[0]
-            if np.linalg.norm(pixel - np.asarray(sight.cursor)) <= FEATURE_REACH * sight.scale:
-                return vertex
-        return None
-
-    def _can_pick(self, sight: Sight, vertex: int) -> bool:
-        return self._surface.can_pick(sight, self._surface.to_object @ self._surface.points[vertex])
-
-
-SEED_REACH = 9.0
-"""Pixels beside a seed in which it is found..."""
-WIRE_REACH = 6.0
-"""...beside a wire..."""
-SEAM_REACH = 4.0
-"""...and beside a seam: narrower, for meshes have many, and they must not keep the edges next to them from being picked."""
-STROKE_REACH = 12.0
-"""Pixels beside a stroke in which it is found."""
-
-
-@dataclass(frozen=True)
-class _Drawn:
-    """What of a network can be found by the cursor, in object coordinates."""
-
-    key: object
-    picks: tuple[Pick, ...]
-    seeds: Projected
-    wires: tuple[Wire, ...]
-    curves: Segments
-
-
-class DrawnPicker:
-    """Finds what was drawn on a mesh. `seams` are those edges, (s, 2), that are seams and that no wire runs along."""
-
-    def __init__(self, surface: VisibleSurface, seams: ArrayLike) -> None:
-        self._surface = surface
-        self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
-        self._drawn: _Drawn | None = None
-        self._drawn_of: tuple[object, ...] = ()
-
-    def set_seams(self, seams: ArrayLike) -> None:
-        """Take other edges, (s, 2), as the seams that no wire runs along."""
-        edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
-        if not np.array_equal(edges, self._seam_edges):
-            self._seam_edges = edges
-            self.__dict__.pop("_seams", None)
-
-    @cached_property
-    def _seams(self) -> Segments:
-        surface = self._surface
-        ends = surface.in_object(surface.points[self._seam_edges.reshape(-1)]).reshape(-1, 2, 3)
-        return Segments(list(ends))
-
-    def at(self, sight: Sight, session: Sketch) -> Snap | None:
-        """Return the seed, otherwise the wire, otherwise the seam under the cursor."""
-        surface, drawn = self._surface, self._drawn_now(session)
-        cursor, reach = sight.cursor, SEED_REACH * sight.scale
-        rows = drawn.seeds.near(sight.camera, sight.matrix, cursor, reach)
-        x, y, _ = drawn.seeds.seen(sight.camera, sight.matrix)
-        gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
-        for i in np.argsort(gaps, kind="stable").tolist():
-            if gaps[i] <= reach and surface.can_pick(sight, drawn.seeds.points[rows[i]]):
-                return Snap(drawn.picks[rows[i]], "SEED")
-        for owner, place in drawn.curves.near(sight, WIRE_REACH * sight.scale):
-            if surface.can_pick(sight, place):
-                wire = drawn.wires[owner]
-                return Snap(self._nearest(np.array(wire.vertices), place), "WIRE", wire)
-        for owner, place in self._seams.near(sight, SEAM_REACH * sight.scale):
-            if surface.can_pick(sight, place):
-                return Snap(self._nearest(self._seam_edges[owner], place), "SEAM")
-        return None
-
-    def _nearest(self, vertices: NDArray[np.integer], place: NDArray[np.float64]) -> int:
-        """Return the vertex nearest to a place in object coordinates."""
-        away = np.linalg.norm(self._surface.in_object(self._surface.points[vertices]) - place, axis=1)
-        return int(vertices[np.argmin(away)])
-
-    def _drawn_now(self, session: Sketch) -> _Drawn:
-        """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        of = session.drawn, session.options.along, session.seed_place, session.moved
-        if self._drawn is not None and self._drawn_of == of:
-            return self._drawn
-        moved, followed = session.moved
-        wires = tuple(wire for wire in session.wires if wire.id not in moved)
-        picks = tuple(pick for pick in session.seeds() if pick not in followed)
-        key = picks, wires
-        if self._drawn is not None and self._drawn.key == key:
-            self._drawn_of = of
-            return self._drawn
-        surface = self._surface
-        places = [place_of(pick, surface.points) for pick in picks]
-        self._drawn = _Drawn(
-            key,
-            picks,
-            Projected(surface.in_object(np.array(places).reshape(-1, 3))),
-            wires,
-            Segments([surface.curve_in_object(wire.points) for wire in wires]),
-        )
-        self._drawn_of = of
-        return self._drawn
+_SEEDS, _WIRES, _CURVES, _SEAMS, _CRESTS = range(5)
+"""The layers of the library's picker. Those before the seams are empty until they are set."""
+_SEED_REACH, _WIRE_REACH, _SEAM_REACH, _CREST_REACH = 9.0, 6.0, 4.0, 10.0
+"""Pixels beside each in which it is found: few for seams, because edges beside them can be picked too."""
 
 
 class Picker:
     """Finds what is under the cursor on one edit mesh.
 
     In all methods, `matrix` is the object's (4, 4) matrix, which may rotate, scale and shear. `cursor` is in pixels from the region's
-    bottom left. `seams`, (s, 2), are those that no wire runs along, and `bend` is as in `VisibleSurface`.
+    bottom left, and `scale` is that of the display. With `xray`, what lies behind faces is found too. `seams`, (s, 2), are those that no
+    wire runs along. `bend` takes the points of a curve on the mesh, (k, 3), to where they are seen, if that is elsewhere.
     """
 
     def __init__(self, arrays: Arrays, seams: ArrayLike = (), bend: Bend | None = None) -> None:
-        self._surface = VisibleSurface(arrays, bend)
-        self._plain = PlainPicker(self._surface)
-        self._features = FeaturePicker(self._surface)
-        self._drawn = DrawnPicker(self._surface, seams)
+        self._arrays = arrays
+        self._bend: Bend = bend or (lambda curve: curve)
+        self._core: seamwire_core.Picker = native.load().Picker(
+            arrays.points, arrays.triangles, arrays.polygons, arrays.edges, arrays.to_object
+        )
+        self._told: dict[str, tuple[object, ...]] = {}  # what the library's picker was told of
+        self._strength: NDArray[np.float64] | None = None
+        self._preferred: frozenset[int] = frozenset()
+        self._seeds: tuple[Pick, ...] = ()
+        self._wires: tuple[Wire, ...] = ()
+        self._curves: Sequence[NDArray[np.float64]] = ()
+        self.set_seams(seams)
 
     def wait(self) -> None:
         """Wait until the threads have finished."""
-        self._surface.wait()
+        self._core.wait()
 
     def set_seams(self, seams: ArrayLike) -> None:
         """Take other edges, (s, 2), as the seams that no wire runs along."""
-        self._drawn.set_seams(seams)
+        self._seams = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
+        ends = self._arrays.points[self._seams.reshape(-1)]
+        self._core.set_layer(_SEAMS, ends, np.arange(len(self._seams)), _SEAM_REACH)
 
     def snap(
         self,
@@ -264,96 +95,114 @@ class Picker:
             Of vertices alone, find only those that are meant. Otherwise find the point of the surface under the cursor.
         session
             Whose seeds and wires can be found. Without it, neither these nor seams are found.
-        xray
-            Find what lies behind faces too; the nearest on the screen.
-        preferred
-            Vertices that are taken before anything else of the plain mesh if they are as near as features may be.
+        preferred, crests
+            Vertices, and ridges and valleys, that are taken before anything else of the plain mesh nearby.
         strength
-            (n,) how strong the feature is at each vertex. The nearest corner is taken, where three sharp edges meet, and otherwise the
-            strongest feature nearby.
-        crests
-            Ridges and valleys. What lies on one nearby is taken before anything else of the plain mesh.
+            (n,) how strong the feature is at each vertex. The nearest corner is taken, and otherwise the strongest feature nearby.
         """
-        sight = Sight.of(camera, matrix, cursor, scale, xray)
-        if sight is None:
-            return None
         if session is not None:
-            found = self._drawn.at(sight, session)
-            if found is not None:
-                return found
-        if xray:
-            pick = self._plain.through(sight, vertices_only)
-        else:
-            pick = self._plain.point_at(sight) if anywhere else None
-            if pick is None:
-                pick = self._plain.at(sight, vertices_only, edges_only)
-        if pick is None:
-            return None
-        near = self._features.near(sight, pick) if preferred or strength is not None else {}
-        vertex = self._features.preferred_at(sight, near, preferred) if preferred else None
-        if vertex is not None:
-            return Snap(vertex)
-        corner = None if strength is None else self._features.corner_at(sight, near)
-        if corner is not None:
-            return Snap(corner, "FEATURE")
-        crest = None if crests is None else self._features.crest_at(sight, crests, anywhere)
-        if crest is not None:
-            return Snap(crest, "FEATURE")
-        if edges_only and isinstance(pick, tuple):
-            return self._plain.with_crossing(sight, pick)
-        feature = None if strength is None else self._features.strongest_at(sight, near, strength)
-        return Snap(pick) if feature is None else Snap(feature, "FEATURE")
+            self._follow(session)
+        has_new_strength = strength is not None and strength is not self._strength
+        if has_new_strength or (preferred and preferred is not self._preferred):
+            self._strength, self._preferred = strength, preferred
+            strengths = () if strength is None else strength
+            least = np.quantile(strengths, FEATURE_QUANTILE) if len(strengths) else 0.0
+            self._core.set_vertices(strengths, least, list(preferred))
+        if crests is not None and self._is_new("crests", crests):
+            ends, owners = crests.segments.reshape(-1, 3), crests.faces[crests.pieces]
+            self._core.set_layer(_CRESTS, ends, owners, _CREST_REACH, crests.vertices[crests.pieces[:, None] + (0, 1)])
+        found = self._core.pick(
+            *_seen_by(camera, matrix, cursor),
+            scale,
+            xray,
+            layers=() if session is None else (_SEEDS, _WIRES, _SEAMS),
+            vertices_only=vertices_only,
+            edges_only=edges_only,
+            anywhere=anywhere,
+            preferred=bool(preferred),
+            features=strength is not None,
+            crests=-1 if crests is None else _CRESTS,
+        )
+        return None if found is None else self._snap(found)
 
-    def stroke_at(
+    def curve_at(
         self,
-        strokes: Sequence[Stroke],
+        curves: Sequence[NDArray[np.float64]],
+        reach: float,
         camera: Camera,
         matrix: ArrayLike,
         cursor: tuple[float, float],
         xray: bool = False,
         scale: float = 1.0,
-    ) -> Stroke | None:
-        """Return the stroke nearest to the cursor that the surface does not hide. Of equally near strokes, it is the last one."""
-        sight = Sight.of(camera, matrix, cursor, scale, xray)
-        if sight is None:
-            return None
-        best, nearest = None, STROKE_REACH * sight.scale
-        for stroke in strokes:
-            places = self._surface.curve_in_object(stroke.points)
-            pixels = sight.pixels(places)
-            part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
-            gaps = np.where(np.isnan(gaps), np.inf, gaps)
-            for row in np.argsort(gaps, kind="stable").tolist():
-                if gaps[row] > nearest:
-                    break
-                if self._surface.can_pick(sight, places[row] + part[row] * (places[row + 1] - places[row])):
-                    best, nearest = stroke, float(gaps[row])
-                    break
-        return best
+    ) -> tuple[int, float] | None:
+        """Return the curve within reach that is nearest to the cursor and not hidden, and how far it is from the near plane."""
+        if len(curves) != len(self._curves) or any(map(is_not, curves, self._curves)):
+            self._curves = curves
+            self._set_curves(_CURVES, curves, reach)
+        found = self._core.pick(*_seen_by(camera, matrix, cursor), scale, xray, layers=(_CURVES,), layers_only=True)
+        return None if found is None else (found.owner, found.depth)
 
     def seen_along(self, camera: Camera, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick, in the coordinates of the mesh, or None if it lies behind the viewer."""
-        surface = self._surface
-        sight = Sight.of(camera, matrix, (0.0, 0.0))
-        if sight is None:
+        to_world = np.array(matrix, dtype=np.float64)
+        to_world[:3, :3] = to_world[:3, :3] @ self._arrays.to_object
+        place = np.array([*place_of(pick, self._arrays.points), 1.0])
+        if not np.linalg.det(to_world) or np.isnan(camera.to_pixels((to_world @ place)[None, :3])).any():
             return None
-        pixel = sight.pixels((surface.to_object @ place_of(pick, surface.points))[None])[0]
-        if not np.isfinite(pixel).all():
-            return None
-        near, far = surface.ray(sight, (float(pixel[0]), float(pixel[1])))
-        x, y, z = (far - near).tolist()
-        return x, y, z
+        to_clip = camera.perspective @ to_world
+        x, y, _, w = to_clip @ place
+        near, far = np.linalg.solve(to_clip, np.array([[x / w, y / w, z, 1.0] for z in (-1.0, 1.0)]).T).T
+        return tuple((far[:3] / far[3] - near[:3] / near[3]).tolist())
 
-    def depth(self, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]) -> float | None:
-        """Return how far the face under the cursor is from the near plane, in world units, or None beside the mesh."""
-        sight = Sight.of(camera, matrix, cursor)
-        hit = None if sight is None else self._surface.cast(sight, cursor)
-        return None if hit is None else float(np.linalg.norm(sight.to_world(hit[1]) - camera.ray(cursor)[0]))
+    def surface_at(self, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]) -> seamwire_core.Picked | None:
+        """Return the `place` of the surface under the cursor, its `triangle`, and its `depth` behind the near plane in world units."""
+        return self._core.pick(*_seen_by(camera, matrix, cursor), surface_only=True)
 
-    def surface_at(
-        self, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]
-    ) -> tuple[NDArray[np.float64], int] | None:
-        """Return the point of the surface under the cursor, in the coordinates of the mesh, and its triangle."""
-        sight = Sight.of(camera, matrix, cursor)
-        hit = None if sight is None else self._surface.cast(sight, cursor)
-        return None if hit is None else (self._surface.to_points @ hit[1], hit[0])
+    def _snap(self, found: seamwire_core.Picked) -> Snap:
+        if found.layer == _SEEDS:
+            return Snap(self._seeds[found.owner], "SEED")
+        if found.layer >= 0:
+            wire = self._wires[found.owner] if found.layer == _WIRES else None
+            vertices = self._seams[found.owner] if wire is None else np.array(wire.vertices)
+            away = (self._arrays.points[vertices] - found.place) @ self._arrays.to_object.T
+            return Snap(int(vertices[np.linalg.norm(away, axis=1).argmin()]), "SEAM" if wire is None else "WIRE", wire)
+        point = found.place, found.triangle, self._arrays.triangles, self._arrays.points
+        pick: Pick = FacePoint.at(*point) if found.pick is None else found.pick
+        return Snap(
+            pick,
+            "FEATURE" if found.is_feature else "MESH",
+            crossing=found.crossing,
+            is_close_call=found.is_close_call,
+            triangle=found.triangle if isinstance(pick, tuple) and found.triangle >= 0 else None,
+            inside=found.is_inside,
+        )
+
+    def _follow(self, session: Sketch) -> None:
+        """Tell the library what of a sketch can be found. A held seed and its wires cannot, because they follow the mouse."""
+        if not self._is_new("sketch", session.drawn, session.options.along, session.seed_place, session.moved):
+            return
+        moved, followed = session.moved
+        picks = tuple(pick for pick in session.seeds() if pick not in followed)
+        wires = tuple(wire for wire in session.wires if wire.id not in moved)
+        if not self._is_new("drawn", picks, wires):
+            return
+        self._seeds, self._wires = picks, wires
+        places = [place_of(pick, self._arrays.points) for pick in self._seeds]
+        ends = np.repeat(np.reshape(places, (-1, 3)), 2, axis=0)
+        self._core.set_layer(_SEEDS, ends, np.arange(len(places)), _SEED_REACH)
+        self._set_curves(_WIRES, [wire.points for wire in wires], _WIRE_REACH)
+
+    def _is_new(self, name: str, *key: object) -> bool:
+        """Return whether the library is to be told of something else than the last time, and take note of it."""
+        before, self._told[name] = self._told.get(name), key
+        return before != key
+
+    def _set_curves(self, layer: int, curves: Sequence[NDArray[np.float64]], reach: float) -> None:
+        seen = [self._bend(curve) for curve in curves]
+        ends = [np.empty((0, 3)), *(np.stack([one[:-1], one[1:]], axis=1).reshape(-1, 3) for one in seen)]
+        owners = np.repeat(np.arange(len(seen)), [len(pair) // 2 for pair in ends[1:]])
+        self._core.set_layer(layer, np.concatenate(ends), owners, reach)
+
+
+def _seen_by(camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]) -> tuple:
+    return camera.perspective, matrix, (camera.width, camera.height), cursor, camera.clipped

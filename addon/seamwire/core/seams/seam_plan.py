@@ -8,7 +8,6 @@ with free boundaries, 2015, Section 3.1).
 
 from __future__ import annotations
 
-import itertools
 import json
 import math
 from collections.abc import Callable, Mapping
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...terms.choices import PARTS_BY
+from ..base import native
 from ..network.picks import undirected
 from ..network.wires import FOLLOWS, Wire
 
@@ -121,10 +121,10 @@ def stroke_weights(
         if stroke.radius is None:
             beside = edges[(near[edges] > 0.0).any(axis=1)]
             length = float(np.linalg.norm(np.diff(points[beside], axis=1), axis=2).mean()) if len(beside) else 0.0
-            near[_distances(points, stroke.points, _UNDER * length) < _UNDER * length] = 1.0
+            near[_distances(points, stroke.points) < _UNDER * length] = 1.0
             near = _faded_by_rings(near, edges)
         else:
-            near = np.maximum(near, 1.0 - _distances(points, stroke.points, stroke.radius) / stroke.radius)
+            near = np.maximum(near, 1.0 - _distances(points, stroke.points) / stroke.radius)
         logarithms += -near if stroke.attracts else near
     return _STROKE_STRENGTH**logarithms
 
@@ -139,18 +139,11 @@ def _faded_by_rings(near: NDArray[np.float64], edges: NDArray[np.int32]) -> NDAr
     return near
 
 
-def _distances(points: NDArray[np.float64], line: NDArray[np.float64], most: float) -> NDArray[np.float64]:
-    """Return how far points, (n, 3), are from a line through places, (k, 3); not more than `most`, (n,)."""
-    found = np.full(len(points), most)
-    for start, end in itertools.pairwise(line):
-        low, high = np.minimum(start, end) - most, np.maximum(start, end) + most
-        rows = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
-        along = end - start
-        square = float(along @ along)
-        part = np.clip((points[rows] - start) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(rows))
-        gaps = np.linalg.norm(start + part[:, None] * along - points[rows], axis=1)
-        found[rows] = np.minimum(found[rows], gaps)
-    return found
+def _distances(points: NDArray[np.float64], line: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far points, (n, 3), are from a line through places, (k, 3)."""
+    starts = np.arange(len(line))
+    sides = np.stack([starts[:-1], starts[1:], starts[1:]], axis=1) if len(line) > 1 else np.zeros((1, 3), dtype=int)
+    return native.load().NearestPoints(line, sides).find(points)[2]
 
 
 def mean_stretch(energies: Sequence[float], areas: Sequence[float]) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base import native
 from ..base.refused import Refused
 from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS, by_number
@@ -29,27 +30,7 @@ def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[l
 
     Chains end at seeds as well. Closed ones end where they begin.
     """
-    around: dict[int, list[int]] = {}
-    for one, two in seams.tolist():
-        around.setdefault(one, []).append(two)
-        around.setdefault(two, []).append(one)
-    unused = {frozenset(pair) for pair in seams.tolist()}
-
-    ends = {vertex for vertex, near in around.items() if len(near) != 2}.union(seeds)
-
-    def follow(first: int, second: int) -> list[int]:
-        chain = [first, second]
-        unused.discard(frozenset(chain))
-        while chain[-1] != first and chain[-1] not in ends:
-            one, two = around[chain[-1]]
-            chain.append(two if one == chain[-2] else one)
-            unused.discard(frozenset(chain[-2:]))
-        return chain
-
-    chains = []
-    for vertex in (*(ends & around.keys()), *around):  # what is left after the ends are circles
-        chains += [follow(vertex, other) for other in around[vertex] if frozenset((vertex, other)) in unused]
-    return chains
+    return [chain.tolist() for chain in native.load().edge_chains(seams, list(seeds))]
 
 
 def wires_between(seams: NDArray[np.int32], seeds: Collection[int], points: NDArray[np.float64]) -> Iterator[Wire]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.half_edges import among
 from ..network.picks import FacePoint
 from ..network.wires import Wire
 from ..seams.seam_wires import wires_along
@@ -174,7 +173,7 @@ def _without_overshoot(chain: list[int], stops: NDArray[np.int64]) -> list[int]:
     """Return a chain without its last edge where that alone leads on from a seam, or a wire, that the chain has come to."""
     if len(chain) < 3:
         return chain
-    before, at, last = among(np.array(chain[-3:], dtype=np.int64), stops).tolist()
+    before, at, last = np.isin(chain[-3:], stops).tolist()
     return chain[:-1] if at and not before and not last else chain
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.half_edges import among
 from ..base.refused import Refused
 from ..network.network import Sought, linked, surface_vertex
 from ..network.picks import vertices_of
@@ -163,7 +162,7 @@ class Lining(Interaction):
         """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
         if self.joined is not None or end == seed.began:
             return True
-        return isinstance(end, int) and bool(among(np.array([end]), self._board.stops.kept(self._board.drawn))[0])
+        return isinstance(end, int) and bool(np.isin(end, self._board.stops.kept(self._board.drawn)))
 
 
 class LineSearch(Search):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..base.refused import Refused
@@ -11,7 +12,7 @@ from ..fields.crests import CREST_KINDS
 from ..network.network import Given, How, Snap, Sought
 from ..network.picks import FacePoint, pick_name, undirected
 from ..offers.edge_loops import LoopOffers, taken
-from ..offers.part_borders import PartBorders
+from ..offers.part_search import PartSearch
 from ..offers.surface_loops import SurfaceLoops
 from .courses import Course, Search, patiently
 from .interaction import Begun, Edit, Interaction
@@ -40,9 +41,9 @@ class Offering(Interaction):
 
     def __init__(self, board: Board) -> None:
         super().__init__(board)
-        points, triangles, edges = board.points, board.triangles, board.edges
-        own = self._board
-        self.parts = PartBorders(points, triangles, edges, lambda: own.seams, lambda *asked: own.find_parts(*asked))
+        points, triangles = board.points, board.triangles
+        own, live = self._board, partial(board.engines.get, "EDGES")
+        self.parts = PartSearch(live, len(triangles), lambda: own.seams, lambda *asked: own.find_parts(*asked))
         self.edges = LoopOffers(board.engines, board.stops, points, self.parts)
         self.cuts = SurfaceLoops(board.engines, triangles)
         self._crests: Crests | None = None

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...terms.choices import ALONG, DEFAULT_FINISH, FINISHES
-from ..base.nearest_vertices import NearestVertices
+from ..base import native
 from ..base.refused import Refused
 from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
@@ -481,5 +481,5 @@ def _matched(
         return numbers
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = NearestVertices(points).find(places[~stayed], near)
+        mapped[~stayed] = native.load().nearest_vertices(points, places[~stayed], near)
     return mapped

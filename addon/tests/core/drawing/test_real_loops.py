@@ -11,7 +11,6 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import AROUND, RINGS, ball, caps, halves, meridian, quads_between_rings, session_on, sides, tube
 from seamwire.core.network.network import Snap
-from seamwire.core.offers.edge_loops import corners
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
@@ -45,34 +44,6 @@ def test_along_a_limb_the_strip_comes_first_and_a_loop_with_corners_last() -> No
     assert kinds == ["STRIP", "CLOSED"]
     session.loop((3 * AROUND + 2, 4 * AROUND + 2))
     assert sorted(session.wires[0].vertices) == meridian(2)
-
-
-def test_corners_are_where_straight_ways_leave_a_loop() -> None:
-    session = tube()
-    live, points = session.engines.get("EDGES"), session.points
-    live.wait()
-    ring = list(range(4 * AROUND, 5 * AROUND))
-    assert corners(live, ring, points) == 0
-    assert corners(live, ring[::-1], points) == 0
-    low, high = 3 * AROUND, 5 * AROUND
-    box = [*range(low, low + 5), low + AROUND + 4, *range(high + 4, high - 1, -1), low + AROUND]
-    assert corners(live, box, points) == 4
-    face = [low, low + 1, low + AROUND + 1, low + AROUND]
-    assert corners(live, face, points) == 4
-    rim = [*range(5), *range(AROUND + 4, AROUND - 1, -1)]
-    assert corners(live, rim, points) == 2, "at the rim no way goes on straight across it"
-
-
-def test_where_three_edges_meet_a_loop_has_no_corner() -> None:
-    quads = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-    quads = np.array(quads, dtype=np.int32)
-    square = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    points = np.concatenate([square, square + np.array([0.0, 0.0, 1.0])])
-    points += np.random.default_rng(1).normal(0.0, 0.1, points.shape)
-    session = session_on(points, halves(quads), sides(quads))
-    live = session.engines.get("EDGES")
-    live.wait()
-    assert [corners(live, quad[::turn].tolist(), points) for quad in quads for turn in (1, -1)] == [0] * 12
 
 
 @pytest.mark.parametrize("ready", [False, True])

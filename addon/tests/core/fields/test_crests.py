@@ -62,20 +62,6 @@ def test_the_line_at_a_pick_is_the_one_that_crosses_there(crests: Crests) -> Non
     assert crests.line_at((20 * 41 + 15, 20 * 41 + 16)) is None
 
 
-def test_the_nearest_place_of_a_piece_lies_on_it_and_its_vertex_beside(crests: Crests) -> None:
-    points, triangles = waves()
-    for piece in range(0, len(crests.pieces), 7):
-        ends = crests.segments[piece]
-        for part, off in ((0.3, 0.0), (0.8, 0.01), (-1.0, 0.0), (2.0, 0.0)):
-            place, triangle, vertex = crests.place_at(piece, ends[0] + part * (ends[1] - ends[0]) + (0.0, 0.0, off))
-            assert np.linalg.norm(np.cross(place - ends[0], ends[1] - ends[0])) < 1e-9
-            assert (place >= ends.min(axis=0) - 1e-9).all()
-            assert (place <= ends.max(axis=0) + 1e-9).all()
-            assert triangle == crests.faces[crests.pieces[piece]]
-            assert vertex in triangles[triangle]
-            assert np.linalg.norm(points[vertex] - place) < 0.05
-
-
 def test_a_sphere_has_none() -> None:
     rings, around = 20, 40
     polar, turn = np.meshgrid(np.pi * (np.arange(rings) + 0.5) / rings, 2 * np.pi * np.arange(around) / around)

@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands.islands import PLACES, IslandMaker, choose_hues, neighbours
+from seamwire.core.islands.islands import PLACES, IslandMaker
 
 
 def strip(count: int) -> NDArray[np.int32]:
@@ -54,20 +54,6 @@ def test_pieces_are_all_triangles_once() -> None:
             assert found.hues[found.labels[row]] == hue
 
 
-def test_neighbours_are_those_that_meet_at_a_cut() -> None:
-    triangles = strip(6)
-    cuts = cut_at(6, 2, 4)
-    pairs = neighbours(triangles, labelled(6)(cuts), cuts)
-    assert pairs.tolist() == [[0, 1], [1, 2]]
-
-
-def test_a_cut_inside_one_island_has_no_neighbours() -> None:
-    triangles = strip(6)
-    pairs = neighbours(triangles, np.zeros(12, dtype=np.int32), cut_at(6, 3))
-    assert pairs.shape == (0, 2)
-
-
-ANY = -1
 RAINBOW = np.array(PLACES)
 
 
@@ -81,51 +67,6 @@ def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> N
     maker = IslandMaker(strip(30), labelled(30))
     maker.ask("a", cut_at(30, 4, 11))
     assert maker.answer.missing.tolist() == [0, 0, 0]
-
-
-def gaps(hues: NDArray[np.uint8], pairs: NDArray[np.int32]) -> NDArray[np.int64]:
-    return np.abs(RAINBOW[hues[pairs[:, 0]]] - RAINBOW[hues[pairs[:, 1]]])
-
-
-def honeycomb(size: int) -> NDArray[np.int32]:
-    """Return the pairs of neighbors among size x size cells, up to six each: as islands most often meet, by threes."""
-    numbers = np.arange(size * size).reshape(size, size)
-    ways = (numbers[:, :-1], numbers[:, 1:]), (numbers[:-1], numbers[1:]), (numbers[:-1, 1:], numbers[1:, :-1])
-    return np.sort(np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in ways]), axis=1).astype(np.int32)
-
-
-@pytest.mark.parametrize("size", [2, 5, 20, 60])
-def test_neighbors_have_hues_that_are_far_apart(size: int) -> None:
-    numbers = np.random.default_rng(size).permutation(size * size)
-    pairs = np.sort(numbers[honeycomb(size)], axis=1).astype(np.int32)
-    hues = choose_hues(np.full(size * size, ANY), pairs)
-    assert gaps(hues, pairs).min() >= 3
-
-
-@pytest.mark.parametrize("count", [7, 60])
-def test_neighbors_have_different_hues_however_many_there_are(count: int) -> None:
-    rng = np.random.default_rng(count)
-    pairs = np.unique(np.sort(rng.integers(0, count, (2 * count, 2)), axis=1), axis=0).astype(np.int32)
-    pairs = pairs[pairs[:, 0] != pairs[:, 1]]
-    assert gaps(choose_hues(np.full(count, ANY), pairs), pairs).min() >= 2
-
-
-def test_more_neighbours_than_hues_are_no_error() -> None:
-    pairs = np.array([(i, j) for i in range(20) for j in range(i + 1, 20)], dtype=np.int32)
-    assert choose_hues(np.full(20, ANY), pairs).max() < 12
-
-
-def test_few_islands_have_each_a_hue_of_their_own() -> None:
-    none = np.empty((0, 2), dtype=np.int32)
-    assert len(set(choose_hues(np.full(12, ANY), none).tolist())) == 12
-
-
-def test_of_neighbors_with_hues_too_much_alike_the_larger_keeps_its_own() -> None:
-    close = np.flatnonzero(np.abs(RAINBOW - RAINBOW[0]) == 1)[0]
-    pairs = np.array([[0, 1], [1, 2]], dtype=np.int32)
-    hues = choose_hues(np.array([0, close, 7]), pairs)
-    assert hues[[0, 2]].tolist() == [0, 7]
-    assert gaps(hues, pairs).min() >= 3
 
 
 def tinted(maker: IslandMaker, key: object, cuts: NDArray[np.int32]) -> NDArray[np.uint8]:
@@ -156,8 +97,8 @@ def test_hues_stay_whatever_is_cut_and_dropped_elsewhere() -> None:
         # Where two islands have become one, its neighbor may have a hue too much like it: that alone gives way.
         assert len(np.unique(np.searchsorted(sorted(cuts), np.flatnonzero(changed) // 2, side="right"))) <= 1
         newest = maker.answer
-        pairs = neighbours(strip(count), newest.labels, cut_at(count, *sorted(cuts)))
-        assert gaps(newest.hues, pairs).min() >= 3
+        places = RAINBOW[newest.hues[newest.labels[::2]]]
+        assert np.abs(np.diff(places))[sorted(at - 1 for at in cuts)].min() >= 3
         before = after
 
 

@@ -22,7 +22,7 @@ def in_map(*islands: np.ndarray, name: str = "Shirt", turn: np.ndarray | None = 
     points = np.concatenate([uvs.reshape(-1, 2), np.zeros((3 * len(uvs), 1))], axis=1)
     triangles = np.arange(len(points), dtype=np.int32).reshape(-1, 3)
     labels = np.repeat(np.arange(len(islands)), [len(each) for each in islands]).astype(np.int32)
-    surface = MappedSurface(points, triangles, np.arange(len(uvs)), labels, uvs, np.empty((0, 2), dtype=np.int32))
+    surface = MappedSurface(points, triangles, labels, uvs, np.empty((0, 2), dtype=np.int32))
     return MapInScene(name, surface, np.eye(3) if turn is None else turn)
 
 

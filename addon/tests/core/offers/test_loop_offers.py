@@ -8,22 +8,22 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from fake_live import grid_edges, grid_triangles
+from fake_live import FakeLive, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.network.drawn import Drawn
-from seamwire.core.network.network import Snap
 from seamwire.core.network.stops import Stops
-from seamwire.core.offers import part_borders
+from seamwire.core.offers import part_search
 from seamwire.core.offers.edge_loops import LoopOffers
-from seamwire.core.offers.part_borders import PartBorders
+from seamwire.core.offers.part_search import PartSearch
+from seamwire.core.sketch.network import Snap
 from table import POINTS, SIZE, Table, symmetry
 
 
-def loops(borders: PartBorders) -> LoopOffers:
+def loops(borders: PartSearch) -> LoopOffers:
     return LoopOffers(Table().session.engines, Stops([], symmetry()), POINTS, borders)
 
 
-def halves(go_on: threading.Event | None = None) -> PartBorders:
+def halves(go_on: threading.Event | None = None) -> PartSearch:
     """Return the grid as two parts, with the border along its third column; they are found when they may `go_on`."""
     triangles = grid_triangles(SIZE)
     labels = ((triangles % SIZE).max(axis=1) > 2).astype(np.int32)
@@ -31,12 +31,12 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
     def find(*_: object) -> list[NDArray[np.int32]]:
         return [labels] if go_on is None or go_on.wait() else []
 
-    return PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
+    return PartSearch(lambda: FakeLive(SIZE), len(triangles), find_parts=find)
 
 
 def test_borders_of_parts_are_offered_last() -> None:
     edge = (2, 2 + SIZE)
-    without = loops(PartBorders(POINTS, grid_triangles(SIZE), grid_edges(SIZE))).find(edge, Drawn())
+    without = loops(PartSearch(lambda: FakeLive(SIZE), 50)).find(edge, Drawn())
     offers = loops(halves())
     found = offers.find(edge, Drawn())
     assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
@@ -48,7 +48,7 @@ def test_borders_of_parts_are_offered_last() -> None:
 
 
 def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    monkeypatch.setattr(part_search, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     parts = halves(go_on)
     offers = loops(parts)
@@ -70,7 +70,7 @@ def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.Mon
 
 
 def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    monkeypatch.setattr(part_search, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     parts = halves(go_on)
     offers = loops(parts)
@@ -87,7 +87,7 @@ def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pyt
 
 
 def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    monkeypatch.setattr(part_search, "AT_ONCE", 0)
     edge, searches, ended = (2, 2 + SIZE), [], threading.Event()
 
     def find(_: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
@@ -100,7 +100,7 @@ def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pyt
             ended.set()
 
     triangles = grid_triangles(SIZE)
-    parts = PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
+    parts = PartSearch(lambda: FakeLive(SIZE), len(triangles), find_parts=find)
     offers = loops(parts)
     offers.aim(edge)
     while not offers.find(edge, Drawn()):

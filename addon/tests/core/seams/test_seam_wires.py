@@ -10,27 +10,10 @@ import pytest
 from real_sessions import AROUND, RINGS, ball, meridian, tube
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.wires import Wire
-from seamwire.core.seams.seam_wires import seam_chains, wires_between
+from seamwire.core.seams.seam_wires import wires_between
 from seamwire.core.sketch.sketch import Sketch
 
 core = pytest.importorskip("seamwire_core")
-
-
-def edges_of(chains: list[list[int]]) -> list[tuple[int, int]]:
-    return sorted(undirected(pair) for chain in chains for pair in itertools.pairwise(chain))
-
-
-def test_chains_end_where_seams_end_or_meet() -> None:
-    seams = np.array([(0, 1), (1, 2), (2, 3), (2, 4), (5, 6), (6, 7), (7, 5)])
-    chains = seam_chains(seams)
-    ends = sorted(tuple(sorted((chain[0], chain[-1]))) for chain in chains)
-    assert ends == [(0, 2), (2, 3), (2, 4), (5, 5)]
-    assert edges_of(chains) == sorted(map(tuple, np.sort(seams, axis=1).tolist()))
-
-
-def test_a_circle_through_a_junction_is_one_chain() -> None:
-    chains = seam_chains(np.array([(0, 1), (1, 2), (2, 0), (0, 3)]))
-    assert sorted((chain[0], chain[-1], len(chain)) for chain in chains) == [(0, 0, 4), (0, 3, 2)]
 
 
 def test_wires_between_seeds_that_are_given_end_there_and_circles_are_halved() -> None:

@@ -7,6 +7,7 @@
 
 #include "seamwire/api.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
+#include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/types.hpp"
 
 namespace seamwire {
@@ -49,5 +50,17 @@ SEAMWIRE_API EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge
 /// \throws InvalidInput if there is no such edge
 SEAMWIRE_API std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
                                                        std::span<const std::int32_t> stops);
+
+/// Count the vertices where a closed chain turns off by 60 degrees or more, although straight ways go on there.
+///
+/// At such a vertex, the straight way does not follow the chain in either direction. Where three edges meet, both
+/// directions lead into the same third edge, and no way is straight.
+///
+/// \param surface the surface
+/// \param adjacency the adjacency of the surface
+/// \param loop vertices of the surface; the first one is not repeated
+/// \returns the number of corners
+SEAMWIRE_API std::int32_t count_corners(const Surface& surface, const EdgeAdjacency& adjacency,
+                                        std::span<const std::int32_t> loop);
 
 }  // namespace seamwire

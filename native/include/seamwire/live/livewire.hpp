@@ -101,6 +101,7 @@ struct LiveLoop {
   /// The chain, which does not repeat its first vertex. Empty if there is no chain, or not yet.
   std::vector<std::int32_t> vertices;
   double length = std::numeric_limits<double>::infinity();  ///< as in EdgeChain
+  std::int32_t corners = 0;                                 ///< count_corners() of the chain
   bool final = false;                                       ///< whether the search has finished
 };
 
