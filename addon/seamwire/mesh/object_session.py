@@ -128,7 +128,7 @@ class ObjectSession:
         self._found = Found()
         self._newer = False
         self._damaged = False
-        self._renumbered = self._outdated = False
+        self._renumbered = self._outdated = self._has_other_wires = False
         self._unstored = False
         self._adopt(self.cage.labels(was_read=True), self.arrays.seams)
 
@@ -203,7 +203,7 @@ class ObjectSession:
             return False
         self.obj = obj
         self.cage = edit_mesh.Cage(obj)
-        self._renumbered = self._outdated = False
+        self._renumbered = self._outdated = self._has_other_wires = False
         labels = self.cage.labels(was_read=True)
         same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
         if not same:
@@ -227,6 +227,7 @@ class ObjectSession:
         self._outdated = True
         if not self._labels.same_as(known) and not has_others:
             self._found = Found() if self._newer else wire_labels.read(self._labels, self._archive, self.places)
+            self._has_other_wires = True
         if obj.mode != "EDIT" or has_others:
             return False
         try:
@@ -319,7 +320,7 @@ class ObjectSession:
             raise ValueError("The mesh has other vertices now")
         drawn = self.session.drawn
         return wire_labels.plan(
-            drawn if change is None or not self._outdated else change.on(self._found.network),
+            change.on(self._found.network) if change and self._has_other_wires else drawn,
             self._labels,
             self._found,
             self._archive,
@@ -339,6 +340,7 @@ class ObjectSession:
         # Any other edge has no label, as before.
         self._labels = self.cage.labels((*map(tuple, self._labels.pairs.tolist()), *labels))
         self._found = Found(plan.network, plan.known)
+        self._has_other_wires = False
         seams = edges_after(self.arrays.seams, plan.mark, plan.clear)
         self._set_seams(seams, self._labels)
         self._store()

@@ -381,7 +381,9 @@ class Chain:
         else:
             was_saved, self._is_saved = self._is_saved, True  # an error may leave a part of the wires
             try:
-                _write(self.drawn_on, adopt=False)
+                mesh = self.drawn_on.mesh
+                mesh.write(mesh.plan(Change(self._before, mesh.session.drawn)), adopt=False)
+                self.drawn_on.renew()
             except ValueError:  # the mesh has other vertices, and nothing was written: the chain ends at its next event
                 self._is_saved = was_saved
 

@@ -75,15 +75,6 @@ def drag(chain: Chain, given: Meant) -> None:
     """Let the held thing follow the mouse."""
     assert chain.hold is not None and given.place is not None
     threshold = drag_threshold(given.event, bpy.context.preferences)
-    if isinstance(chain.hold, LineHold) and chain.hold.begins_elsewhere(given.place, threshold):
-        # The live wires become a separate chain, with a separate step in Blender's undo. The mesh may be cut then.
-        chain.begin_anew()
-        view, snap = edited.find(chain.hold.place)
-        if view is None or snap is None:
-            chain.let_go()
-            return
-        chain.draw_on(view)
-        chain.hold.go_to(view, snap)
     if not chain.hold.move(given.place, threshold):
         chain.go(Cue.LET_GO)
 

@@ -149,16 +149,6 @@ class LineHold(Hold):
         self._trail = Trail(self._view, self.place, ends_at_rim=False)
         return True
 
-    def begins_elsewhere(self, place: Place, threshold: float) -> bool:
-        """Whether a drag begins at a place, and not where the live wire begins."""
-        if self.is_drag or place.away(self.place) <= threshold or self._session.network.seed is None:
-            return False
-        return not self._session.goes_on_from(self.snap)
-
-    def go_to(self, view: ObjectView, snap: Snap) -> None:
-        """Hold the same place of an object that may have been read anew."""
-        self._view, self._session, self.snap = view, view.session, snap
-
     def follow(self, place: Place) -> None:
         """Take note of where the mouse was between two moves."""
         if self._trail is not None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
-from seamwire.core.sketch.network import Snap
+from seamwire.core.network.network import Snap
 from seamwire.core.sketch.picture import Offered
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker

@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from fake_live import FakeLive, grid_points
+from seamwire.core.network.network import Snap, Way
 from seamwire.core.network.wires import Wire
-from seamwire.core.sketch.network import Snap, Way
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
 from setting import use

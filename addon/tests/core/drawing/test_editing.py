@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 from seamwire.core.network.drawn import Drawn
-from seamwire.core.sketch.network import Snap
+from seamwire.core.network.network import Snap
 from seamwire.core.sketch.picture import Intent, Role, SeedRole, ShownSeed
 from setting import insert, use
 from table import Table, chain, corner, courses, paper

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, place_of
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.storage.serialization import Places, wire_record
 from seamwire.terms.options import Options

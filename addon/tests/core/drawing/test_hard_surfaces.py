@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from polygon_meshes import arrays_of
 from real_sessions import AROUND, ball, session_on
 from seamwire.core.base.mesh_arrays import Arrays
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, undirected
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
 

@@ -10,8 +10,8 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import session_on
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, undirected
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Intent, Role
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along

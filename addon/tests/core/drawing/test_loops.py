@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import halves, session_on
-from seamwire.core.sketch.network import Snap
+from seamwire.core.network.network import Snap
 from seamwire.core.sketch.picture import Intent, Role
 from seamwire.core.sketch.sketch import Sketch
 from setting import insert, use

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
+from seamwire.core.network.network import Snap
 from seamwire.core.sketch.dragging import Dragging
-from seamwire.core.sketch.network import Snap
 from setting import use
 from table import Table, corner, courses
 

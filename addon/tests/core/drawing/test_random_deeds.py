@@ -12,9 +12,9 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.network.drawn import Drawn
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, Pick
 from seamwire.core.sketch.dragging import Dragging
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Intent
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.storage.wire_labels import Plan

@@ -9,8 +9,8 @@ from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from real_sessions import session_on
+from seamwire.core.network.network import Snap
 from seamwire.core.sketch.dragging import Dragging
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options

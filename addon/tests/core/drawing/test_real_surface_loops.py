@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from real_sessions import caps, circles, halves, quads_between_rings, session_on
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, FacePoint
 from seamwire.core.offers.surface_loops import SurfaceLoops
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.options import Options

@@ -11,7 +11,7 @@ import pytest
 from blender_refusal import BlenderRefusal
 from fake_live import FakeLive, FakeWires
 from seamwire import core
-from seamwire.core.sketch.network import Snap
+from seamwire.core.network.network import Snap
 from seamwire.terms.choices import Along
 from setting import use
 from table import Table

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from real_sessions import session_on
+from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint
-from seamwire.core.sketch.network import Snap
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.options import Options
 from setting import use

@@ -11,11 +11,11 @@ import pytest
 from fake_live import FakeLive, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.network.drawn import Drawn
+from seamwire.core.network.network import Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_search
 from seamwire.core.offers.edge_loops import LoopOffers
 from seamwire.core.offers.part_search import PartSearch
-from seamwire.core.sketch.network import Snap
 from table import POINTS, SIZE, Table, symmetry
 
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from paper_mesh import PaperMesh
 from seamwire.core.network.drawn import Drawn
+from seamwire.core.network.network import Network, Snap, linked
 from seamwire.core.network.picks import Edge
-from seamwire.core.sketch.network import Network, Snap, linked
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.storage.serialization import WAS_SEAM
 from setting import use
