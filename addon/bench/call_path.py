@@ -35,6 +35,7 @@ class CallPath:
         self.changes = 0
 
     def __call__(self, frame: FrameType, event: str, _arg: object) -> None:
+        """Take note of an event, as `sys.setprofile` tells it."""
         file = frame.f_code.co_filename
         if "/seamwire/core/" not in file or frame.f_code.co_name.startswith("<"):
             return
