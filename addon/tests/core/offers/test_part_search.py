@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fake_live import FakeLive, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.base.messages import Refused
+from seamwire.core.base.refused import Refused
 from seamwire.core.offers import part_search
 from seamwire.core.offers.part_search import PartSearch
 
