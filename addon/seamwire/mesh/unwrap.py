@@ -326,7 +326,7 @@ def unwrap_changed(
 
 
 def faults_of(obj: bpy.types.Object, *, may_stack: bool = False) -> MapFaults:
-    """Measure what is wrong with the UV map of an edit mesh, which must have one. Islands `may_stack`: lie exactly on each other."""
+    """Measure what is wrong with the UV map that an edit mesh has. If islands `may_stack`, they may lie exactly on each other."""
     found = _Map(obj, every=True, by_library=True)
     return MapFaults(*native.load().map_faults([(*found.mapped(), None)], may_stack=may_stack))
 

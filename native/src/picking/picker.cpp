@@ -140,10 +140,10 @@ struct Picker::Parts {
                     .edges_at = rows_at(edges),
                     .loose = {.ends = {}, .owners = {}, .reach = kReach}};
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const auto [a, b] = edges[e];
-      const auto has_end = [&, b = b](std::int32_t t) { return std::ranges::count(triangles[t], b) > 0; };
-      if (std::ranges::any_of(made.triangles_at[a], has_end)) continue;
-      made.loose.ends.insert(made.loose.ends.end(), {points[a], points[b]});
+      const Edge& edge = edges[e];
+      const auto has_end = [&](std::int32_t t) { return std::ranges::count(triangles[t], edge[1]) > 0; };
+      if (std::ranges::any_of(made.triangles_at[edge[0]], has_end)) continue;
+      made.loose.ends.insert(made.loose.ends.end(), {points[edge[0]], points[edge[1]]});
       made.loose.owners.push_back(static_cast<std::int32_t>(e));
     }
     return made;
