@@ -279,7 +279,7 @@ class FakeLive:
         ready = self.fork_ready or self.ready
         fork = FakeLive(
             self.size, self.along, ready, self.shorter, self.islands, holes=self.holes, boxes=self.boxes,
-            stale=self.stale, metric_ready=self.metric_ready, early=self.early, rings=self.rings,
+            stale=self.stale, metric_ready=self.metric_ready, early=self.early,
         )  # fmt: skip
         self.forks.append(fork)
         return fork

@@ -84,7 +84,7 @@ class PartSearch:
             if self._count <= AT_ONCE:
                 self._thread.join()
         if self._error is not None:
-            raise Refused("loops-failed", why=str(self._error))
+            raise Refused(f"Loops could not be found: {self._error}")
         return self.finder is not None
 
     def stop(self) -> None:

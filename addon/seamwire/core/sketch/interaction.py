@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
-from weakref import proxy
+from weakref import ProxyTypes, proxy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,7 +44,8 @@ class Interaction:
     """
 
     def __init__(self, board: Board) -> None:
-        self._board: Board = proxy(board)  # the board holds its interactions
+        # The board holds its interactions.
+        self._board: Board = board if isinstance(board, ProxyTypes) else proxy(board)
         self.target: Snap | None = None
         self.reason: str = ""
 
