@@ -81,28 +81,26 @@ def _kilobytes(of: str) -> int:
 
 def enable_addons(folder: str | None) -> None:
     """Enable Seamwire and Seamwire Networks, which are installed or lie in a folder; raises AssetError."""
-    if folder:
-        sys.path.insert(0, folder)
-    _enable_addon("seamwire", "Seamwire", bool(folder))
-    _enable_addon("seamwire_networks", "Seamwire Networks", bool(folder))
-
-
-def _enable_addon(addon: str, title: str, is_on_path: bool) -> None:
     import addon_utils
 
     from seamwire_batch.assets import AssetError
 
-    installed = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == addon]
-    for name in [addon] if is_on_path else installed:
-        module = addon_utils.enable(name)
-        if module is not None:
-            # By one name, however it is installed.
-            for part in pkgutil.walk_packages(module.__path__, f"{name}."):
-                importlib.import_module(part.name)
-            for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
-                sys.modules[f"{addon}{known.removeprefix(name)}"] = sys.modules[known]
-            return
-    raise AssetError(f"The add-on {title} is not installed in this Blender: name the folder that has it with --addon")
+    if folder:
+        sys.path.insert(0, folder)
+    found = {}
+    # Enabled for this run alone, an extension loses its wheels when the next one is enabled. Only Seamwire has wheels, so it is the last.
+    for addon, title in (("seamwire_networks", "Seamwire Networks"), ("seamwire", "Seamwire")):
+        installed = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == addon]
+        found[addon] = next(filter(None, map(addon_utils.enable, [addon] if folder else installed)), None)
+        if found[addon] is None:
+            raise AssetError(f"The add-on {title} is not installed in this Blender: name its folder with --addon")
+    for addon, module in found.items():
+        # By one name, however it is installed.
+        name = module.__name__
+        for part in pkgutil.walk_packages(module.__path__, f"{name}."):
+            importlib.import_module(part.name)
+        for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
+            sys.modules[f"{addon}{known.removeprefix(name)}"] = sys.modules[known]
 
 
 def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa: ANN401 - bpy.ops has no type
