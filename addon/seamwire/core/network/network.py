@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
-from .picks import FacePoint, undirected, vertices_of
+from .picks import FacePoint, is_same, undirected, vertices_of
 from .wires import Wire, new_id, split
 
 if TYPE_CHECKING:
@@ -90,6 +91,9 @@ class Seed:
         return self.pick if self.first is None else self.first
 
 
+ENDS: tuple[End, End] = "start", "end"
+
+
 class CourseKey:
     """Stands for the course of a request. Edits that let the course be keep the key."""
 
@@ -117,6 +121,11 @@ class Request:
     goes_on: Link | None = None
     id: int = field(default_factory=new_id)
     key: CourseKey = field(default_factory=CourseKey, repr=False)
+
+    @cached_property
+    def places(self) -> tuple[Pick, Pick]:
+        """Its ends, of an edge the smaller vertex first."""
+        return undirected(self.start), undirected(self.end)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -227,23 +236,23 @@ class Network:
         return [
             (own, end)
             for own in self.requests
-            if not own.closed
-            for end in ("start", "end")
-            if undirected(getattr(own, end)) == place
+            if not own.closed and place in own.places
+            for end, where in zip(ENDS, own.places, strict=True)
+            if where == place
         ]
 
-    @property
+    @cached_property
     def closing_point(self) -> Pick | None:
         """Where the chain of the seed began, while a wire may lead back there."""
         seed = self.seed
-        if seed is None or seed.first is None or undirected(seed.first) == undirected(seed.pick):
+        if seed is None or seed.first is None or is_same(seed.first, seed.pick):
             return None
         return seed.first if self.at(seed.first) else None
 
     def closes(self, target: Snap) -> bool:
         """Whether a wire from the seed to a target closes the chain."""
         first = self.closing_point
-        return target.to == "SEED" and first is not None and undirected(first) == undirected(target.pick)
+        return target.to == "SEED" and first is not None and is_same(first, target.pick)
 
     def seed_at(self, target: Snap, along: Along) -> Seed:
         """Return the seed of a chain that begins at a target. If a single request ends there, the chain goes on from it."""
@@ -254,8 +263,7 @@ class Network:
 
     def seeds(self) -> list[Pick]:
         """Return the ends of the requests, each once, in the order they were placed."""
-        ends = [pick for own in self.requests if not own.closed for pick in (own.start, own.end)]
-        return list({undirected(pick): None for pick in ends})
+        return list({pick: None for own in self.requests if not own.closed for pick in own.places})
 
     def before(self, own: Request) -> Request | None:
         """Return the request that another one goes on from."""
@@ -341,7 +349,7 @@ def linked(wires: tuple[Wire, ...]) -> tuple[Given, ...]:
 
 def goes_on(wire: Wire, start: Pick, heading: Pick | None) -> bool:
     """Whether what begins at a place, heading on from an edge, goes on from the end of a wire."""
-    return heading is not None and wire.vertices[-2:] == heading and undirected(wire.end) == undirected(start)
+    return heading is not None and wire.vertices[-2:] == heading and is_same(wire.end, start)
 
 
 def surface_vertex(pick: Pick) -> Pick:

@@ -60,6 +60,11 @@ def undirected(pick: Pick | None) -> Pick | None:
     return (min(pick), max(pick)) if isinstance(pick, tuple) else pick
 
 
+def is_same(one: Pick | None, other: Pick | None) -> bool:
+    """Whether two picks are the same, edges in either direction."""
+    return one == other or (isinstance(one, tuple) and one[::-1] == other)
+
+
 def pick_name(pick: Pick) -> str:
     """Return a vertex, an edge or a point of a face as messages call it."""
     if isinstance(pick, tuple):

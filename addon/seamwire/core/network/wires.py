@@ -16,7 +16,7 @@ import numpy as np
 
 from ...terms.choices import DEFAULT_FINISH, FINISHES, LOOPS, Along, Finish, LoopKind
 from ..base.geometry import nearest_on_segments
-from .picks import Edge, Pick, undirected
+from .picks import Edge, Pick, is_same
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -233,7 +233,7 @@ def _position(vertices: tuple[int, ...], pick: Pick) -> tuple[int, int] | None:
     if not isinstance(pick, tuple):
         return (vertices.index(pick),) * 2 if pick in vertices else None
     for index, pair in enumerate(itertools.pairwise(vertices)):
-        if undirected(pair) == undirected(pick):
+        if is_same(pair, pick):
             return index, index + 1
     return None
 

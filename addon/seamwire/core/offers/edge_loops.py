@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..network.picks import undirected
+from ..network.picks import is_same, undirected
 from ..network.wires import Wire
 from .offers import Offers
 
@@ -114,7 +114,7 @@ class LoopOffers(Offers):
             offers = self._offers(pick, network.without(own), None)
             return (replace(own, offers=()), *others(own, offers)) if self.final else ()
         snap = self._snap
-        return self._offers(pick, network, snap if snap and undirected(snap.pick) == undirected(pick) else None)
+        return self._offers(pick, network, snap if snap and is_same(snap.pick, pick) else None)
 
     def _offers(self, edge: Edge, network: Drawn, snap: Snap | None) -> tuple[Wire, ...]:
         """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`."""

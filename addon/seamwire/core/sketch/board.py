@@ -14,7 +14,7 @@ from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base import native
 from ..network.drawn import Drawn
-from ..network.network import Given, How, Network, Way, linked
+from ..network.network import Given, How, Network, Sought, Way, linked
 from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import Stroke, for_library
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from ...terms.choices import Along
     from ..network.network import Request
-    from ..network.picks import Edge, Pick
+    from ..network.picks import Pick
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
 
@@ -73,6 +73,8 @@ class Board:
         Grow with every change of the picture, and of the drawn wires.
     progress
         The finished fraction of the running work.
+    begin
+        Where wires begin now; None between chains.
     """
 
     def __init__(
@@ -110,15 +112,15 @@ class Board:
         self.new_report: str = ""
         self.revision = self.network_revision = 0
         self.drawn = Drawn(mirror=options.mirror)
-        self._completed: dict[Wire, Wire] = {}
+        self.begin: Begin | None = None
+        self._completed: dict[Wire, tuple[object, Wire]] = {}
 
     @property
     def base(self) -> Network:
         """The network that edits begin with: where the wires of a line or a loop are known, they are separate requests."""
         new = {}
         for own in self.network.requests:
-            course = self.courses.of(own)
-            if course.final and not isinstance(own, (Given, Way)):
+            if isinstance(own, Sought) and (course := self.courses.of(own)).final:
                 first, *rest = linked(course.wires) or (None,)
                 new[own.id] = () if first is None else (replace(first, goes_on=own.goes_on or first.goes_on), *rest)
         return self.network.replacing(new) if new else self.network
@@ -146,48 +148,43 @@ class Board:
 
     def draw(self) -> None:
         """Derive the wires from the network and the courses."""
-        found = {own: self.courses.of(own).wires for own in self.network.requests}
-        last = {own.id: wires[-1] for own, wires in found.items() if wires}
+        found = self.courses.follow(self.network.requests)
+        last = {own.id: course.wires[-1] for own, course in found if course.wires}
         drawn: list[Wire] = []
-        for own, wires in found.items():
-            for row, wire in enumerate(wires):
-                if row == 0 and wire.along == "EDGES":
-                    before = None if own.goes_on is None else last.get(own.goes_on[0])
-                    heading = None if before is None else heading_of(before, own.goes_on[1], own.start)
-                    wire = wire if heading == wire.heading else self._with_heading(wire, heading)
-                drawn.append(self._with_images(wire))
+        for own, course in found:
+            on = None if own.goes_on is None else last.get(own.goes_on[0])
+            for row, wire in enumerate(course.wires):
+                made_of = row, on, own.goes_on
+                known = self._completed.get(wire)
+                if known is None or known[0] != made_of:
+                    known = self._completed[wire] = made_of, self._complete(wire, row, own, on)
+                drawn.append(known[1])
         before, self.drawn = self.drawn, Drawn(tuple(drawn), self.network.strokes, self.network.mirror)
         changed = before.wires != self.drawn.wires or before.mirror != self.drawn.mirror
         self.network_revision += changed
         self.revision += 1
         if not changed and before == self.drawn:
             self.drawn = before
+        self.find_begin()
 
-    def _with_heading(self, wire: Wire, heading: Edge | None) -> Wire:
-        known = self._completed.get(wire)
-        if known is None or known.heading != heading:
-            known = self._completed[wire] = wire.changed(heading=heading)
-        return known
+    def _complete(self, wire: Wire, row: int, own: Request, on: Wire | None) -> Wire:
+        """Return a wire of a request with its images. The first one heads on from the wire that the request goes `on` from."""
+        if row == 0 and wire.along == "EDGES":
+            heading = None if on is None or own.goes_on is None else heading_of(on, own.goes_on[1], own.start)
+            wire = wire if heading == wire.heading else wire.changed(heading=heading)
+        return self.images.completed(wire) if wire.images is None else wire
 
-    def _with_images(self, wire: Wire) -> Wire:
-        if wire.images is not None:
-            return wire
-        if wire not in self._completed:
-            self._completed[wire] = self.images.completed(wire)
-        return self._completed[wire]
+    def find_begin(self) -> None:
+        """Find where wires begin now."""
+        seed = self.network.seed
+        self.begin = None
+        if seed is not None:
+            self.begin = Begin.of(seed.pick, self.options.along, self.ground.heading(seed.after, seed.pick))
 
     @property
     def seed(self) -> Pick | None:
         """The beginning of the live wire; None between chains."""
-        begin = self.begin()
-        return None if begin is None else begin.pick
-
-    def begin(self) -> Begin | None:
-        """Return where wires begin now; None between chains."""
-        seed = self.network.seed
-        if seed is None:
-            return None
-        return Begin.of(seed.pick, self.options.along, self.ground.heading(seed.after, seed.pick))
+        return None if self.begin is None else self.begin.pick
 
     @property
     def seed_place(self) -> Pick | None:

@@ -16,7 +16,7 @@ from ..solver.solver import MOST_WAITS
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from ..network.network import CourseKey, Network
+    from ..network.network import CourseKey
     from ..solver.solver import LiveWire
 
 
@@ -60,11 +60,17 @@ class Courses:
 
     So a course depends on its request, on the final courses of earlier requests, and on the settings and strokes at the time of the edit,
     which the search has. Requests that undo took back are searched on only when redo brings them back.
+
+    Attributes
+    ----------
+    unfinished
+        The requests of the network, in order, whose courses are not final.
     """
 
     def __init__(self) -> None:
         self._known: WeakKeyDictionary[CourseKey, Course] = WeakKeyDictionary()
         self._searches: WeakKeyDictionary[CourseKey, Search] = WeakKeyDictionary()
+        self.unfinished: list[Request] = []
 
     def of(self, request: Request) -> Course:
         found = self._known.get(request.key)
@@ -78,31 +84,36 @@ class Courses:
         if search is not None and not course.final:
             self._searches[request.key] = search
 
-    def knows(self, request: Request) -> bool:
-        return request.key in self._known or isinstance(request, Given)
+    def unknown(self, requests: Iterable[Request]) -> list[Request]:
+        """Return those of some requests that are not searched for, and have no course."""
+        return [own for own in requests if own.key not in self._known and not isinstance(own, Given)]
 
-    def unfinished(self, network: Network) -> list[Request]:
-        return [own for own in network.requests if not self.of(own).final]
+    def follow(self, requests: Iterable[Request]) -> list[tuple[Request, Course]]:
+        """Search for these requests from now on, in their order. Return them with their courses."""
+        found = [(own, self._known.get(own.key) or self.of(own)) for own in requests]
+        self.unfinished = [own for own, course in found if not course.final]
+        return found
 
-    def lives(self, network: Network) -> list[LiveWire]:
+    def lives(self) -> list[LiveWire]:
         """Return the live wires that compute for the request that comes next."""
-        return [live for own in self.unfinished(network)[:1] for live in self._searches[own.key].lives()]
+        return [live for own in self.unfinished[:1] for live in self._searches[own.key].lives()]
 
-    def poll(self, network: Network) -> tuple[list[Request], bool]:
+    def poll(self) -> tuple[list[Request], bool]:
         """Search on for the first request without a final course. Return the requests that got one, and whether another course is new."""
         done = []
-        for own in self.unfinished(network):
+        for own in self.unfinished:
             before, now = self.of(own), self._step(own)
             if not now.final:
                 return done, now is not before
             done.append(own)
         return done, False
 
-    def give_up(self, requests: Iterable[Request], reason: str = "") -> None:
-        """Let requests stay as they are shown, because nothing more is looked for."""
-        for own in requests:
+    def give_up(self, reason: str = "") -> None:
+        """Let everything stay as it is shown, because nothing more is looked for."""
+        for own in self.unfinished:
             shown = self.of(own)
             self._end(own, Course(shown.wires, final=True, reason=reason))
+        self.unfinished = []
 
     def _step(self, request: Request) -> Course:
         try:

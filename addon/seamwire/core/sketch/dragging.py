@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..base.refused import Refused
 from ..network.network import Given, How, Way
-from ..network.picks import pick_name, undirected
+from ..network.picks import is_same, pick_name, undirected
 from ..solver.solver import for_live
 from .courses import Course
 from .interaction import Begun, Edit, Interaction
@@ -77,7 +77,7 @@ class Dragging(Interaction):
         self._before = board.base.joined(grip, board.points, board.is_final)
         ends = self._before.at(grip.pick)
         live = self._before.seed
-        if not ends and (live is None or undirected(live.pick) != undirected(grip.pick)):
+        if not ends and (live is None or not is_same(live.pick, grip.pick)):
             raise Refused(f"No seed to move at {pick_name(grip.pick)}")
         self._legs: list[Leg] = []
         for own, end in ends:
@@ -129,7 +129,7 @@ class Dragging(Interaction):
     def _refusal(self, pick: Pick) -> str:
         if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self._legs):
             return only_vertices(pick)
-        if self._legs and all(undirected(leg.stays) == undirected(pick) for leg in self._legs):
+        if self._legs and all(is_same(leg.stays, pick) for leg in self._legs):
             return "The wire would end where it begins: remove it instead"
         return ""
 
@@ -142,7 +142,7 @@ class Dragging(Interaction):
         meets: Link | None = None
         direction: Edge | None = None
         for leg in self._arriving_first():
-            if undirected(leg.stays) == undirected(pick):
+            if is_same(leg.stays, pick):
                 continue
             way = leg.request(pick, meets)
             target, avoid = pick, None
@@ -229,10 +229,10 @@ class Dragging(Interaction):
         seed = network.seed
         if seed is None:
             return network
-        if undirected(seed.pick) == undirected(self._seed):
+        if is_same(seed.pick, self._seed):
             own = None if seed.after is None else network.find(seed.after[0])
-            stays = own is not None and undirected(getattr(own, seed.after[1])) == undirected(pick)
+            stays = own is not None and is_same(getattr(own, seed.after[1]), pick)
             seed = replace(seed, pick=pick, after=seed.after if stays else None)
-        if seed.first is not None and undirected(seed.first) == undirected(self._seed):
+        if seed.first is not None and is_same(seed.first, self._seed):
             seed = replace(seed, first=pick)
         return replace(network, seed=seed)

@@ -125,7 +125,7 @@ def _intent(board: Board, wiring: Wiring, offering: Offering, now: Interaction) 
         return Intent.NOTHING
     if seed is None:
         return {"SEED": Intent.CONTINUE, "WIRE": Intent.BRANCH}.get(target.to, Intent.SEED)
-    begin = board.begin()
+    begin = board.begin
     if begin is None or begin.is_at(target.pick, seed.pick) or wiring.reason:
         return Intent.NOTHING
     return wiring.ending(target) or Intent.KEEP

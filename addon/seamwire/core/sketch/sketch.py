@@ -133,7 +133,7 @@ class Sketch(Board):
     @property
     def waiting(self) -> int:
         """The number of requests whose courses are not final."""
-        return len(self.courses.unfinished(self.network))
+        return len(self.courses.unfinished)
 
     @property
     def computing(self) -> bool:
@@ -141,7 +141,7 @@ class Sketch(Board):
         return self.progress < 1.0 or not self.interaction.is_final or self.waiting > 0
 
     def _lives(self) -> list[LiveWire]:
-        return [self.engines.get(self.options.along), *self.interaction.lives(), *self.courses.lives(self.network)]
+        return [self.engines.get(self.options.along), *self.interaction.lives(), *self.courses.lives()]
 
     def _read_progress(self) -> None:
         """Read how much is computed. Wires that are not final after all work is done stay so, so this comes before asking."""
@@ -153,7 +153,7 @@ class Sketch(Board):
             return False
         before = (self.revision, round(self.progress, 2))
         self._read_progress()
-        done, is_new = self.courses.poll(self.network)
+        done, is_new = self.courses.poll()
         if done or is_new:
             self.draw()
         for own in done:
@@ -191,12 +191,11 @@ class Sketch(Board):
             self.poll()
             if not self.computing:
                 return
-            now = (*map(id, self.courses.unfinished(self.network)), self.progress)
+            now = (*map(id, self.courses.unfinished), self.progress)
             rounds, before = (rounds + 1 if now == before else 0), now
-        unfinished = self.courses.unfinished(self.network)
-        if unfinished:
+        if self.courses.unfinished:
             why = self.reason or "The computation ended without a result: this step was dropped"
-            self.courses.give_up(unfinished, why)
+            self.courses.give_up(why)
             self.tell(why)
             self.draw()
 
@@ -234,8 +233,8 @@ class Sketch(Board):
         before = self.network
         for request, course, search in edit.begun:
             self.courses.begin(request, course, search)
-        for own in edit.network.requests:
-            if isinstance(own, Way) and not self.courses.knows(own):  # a part of a wire that is not final
+        for own in self.courses.unknown(edit.network.requests):
+            if isinstance(own, Way):  # a part of a wire that is not final
                 shown = () if own.was is None else (own.was,)
                 self.courses.begin(own, Course(shown), WaySearch(own, self.ground, self.engines.get(own.along).fork()))
         try:
@@ -245,8 +244,7 @@ class Sketch(Board):
             self.go_to(before)
             return self.refuse(str(error))
         self.history.step(before)
-        self._settle()
-        self.wiring.chosen = edit.chosen
+        self._settle(edit.chosen)
         if edit.report:
             self.tell(edit.report)
         for begun in edit.begun:
@@ -254,9 +252,9 @@ class Sketch(Board):
                 self._told_of(begun.request)
         return True
 
-    def _settle(self) -> None:
-        """Let the interactions follow a new network."""
-        self.wiring.chosen = None
+    def _settle(self, chosen: int | None = None) -> None:
+        """Let the interactions follow a new network, with the candidate that stays the active one."""
+        self.wiring.chosen = chosen
         self.wiring.runs = False
         self.offering.offers.clear()
         self.reason = ""
@@ -445,7 +443,7 @@ class Sketch(Board):
         self.end_chain()
         if wait and self.waiting:
             self.wait()
-        self.courses.give_up(self.courses.unfinished(self.network))
+        self.courses.give_up()
         lost = [own.id for own in self.network.requests if not self.courses.of(own).wires]
         if lost:
             self.go_to(self.network.without(*lost))
@@ -551,7 +549,7 @@ class Sketch(Board):
 
     def goes_on_from(self, snap: Snap | Pick) -> bool:
         """Whether a line that begins at a pick continues the chain, rather than begin a new one."""
-        seed, target, begin = self.network.seed, Snap.of(snap), self.begin()
+        seed, target, begin = self.network.seed, Snap.of(snap), self.begin
         return seed is not None and begin is not None and target.to == "SEED" and begin.is_at(target.pick, seed.pick)
 
     def line_begin(self, snap: Snap | Pick) -> bool:
@@ -673,6 +671,7 @@ class Sketch(Board):
         self.wiring.forget()
         self.offering.cancel()
         why: str = ""
+        self.find_begin()
         try:
             self.wiring.sow()
         except ValueError as error:
@@ -708,10 +707,9 @@ class Sketch(Board):
         self.new_report = ""
         self._last_click = None
         self.offering.forget_crest()
-        self._settle()
-        if network.seed is not None and back and back[-1] != "both":
-            # As when it was drawn: the wire that a stroke is for is the active one.
-            self.wiring.chosen = FOLLOWS.index(back[-1])
+        # As when it was drawn: the wire that a stroke is for is the active one.
+        is_for_one = network.seed is not None and bool(back) and back[-1] != "both"
+        self._settle(FOLLOWS.index(back[-1]) if is_for_one else None)
         return True
 
     def adopt(self, own: Drawn, seams: ArrayLike) -> None:

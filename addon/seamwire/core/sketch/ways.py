@@ -10,7 +10,7 @@ import numpy as np
 
 from ..base.refused import Refused
 from ..network.network import surface_vertex
-from ..network.picks import FacePoint, pick_name, undirected
+from ..network.picks import FacePoint, is_same, pick_name
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .courses import Course, Search, patiently
@@ -49,7 +49,7 @@ class Begin:
 
     def is_at(self, pick: Pick, clicked: Pick) -> bool:
         """Whether a wire to a pick would end where it begins, at the clicked place."""
-        if undirected(pick) in (undirected(self.pick), undirected(clicked)):
+        if is_same(pick, self.pick) or is_same(pick, clicked):
             return True
         return self.forward and isinstance(self.pick, tuple) and pick == self.pick[1]
 
@@ -63,7 +63,7 @@ def directed(wire: Wire | None, end: End) -> Edge | None:
 
 def heading_of(wire: Wire, end: End, start: Pick) -> Edge | None:
     """Return the directed edge that what begins at a pick goes on from, if an end of the wire is there."""
-    return directed(wire, end) if undirected(getattr(wire, end)) == undirected(start) else None
+    return directed(wire, end) if is_same(getattr(wire, end), start) else None
 
 
 def across(candidate: Candidate, follow: int, begin: Pick, end: Pick, moving: End = "end") -> Wire | None:

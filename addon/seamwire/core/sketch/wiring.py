@@ -20,8 +20,6 @@ from .picture import Intent
 from .ways import Begin, WaySearch, across, along_edges, goal, in_order
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from ..network.network import Network, Request, Snap
     from ..network.picks import Pick
     from ..solver.solver import LiveWire
@@ -39,6 +37,8 @@ class Wiring(Interaction):
         The candidate that is the active one unless the artist brings another forward, and whether it stays so.
     chosen
         The candidate that the artist brought forward.
+    active_index, active, active_final
+        The candidate that a click would keep, its number, and whether it is computed.
     runs
         Whether the way on to the end is asked for, along edges.
     extended
@@ -61,6 +61,7 @@ class Wiring(Interaction):
         self.leading, self.settled = 0, True
         self.straight: Wire | None = None
         self.extended = None
+        self._choose()
 
     def forget(self) -> None:
         """Forget which wires there were: those of another metric, or way of running, are others."""
@@ -71,7 +72,7 @@ class Wiring(Interaction):
 
     def sow(self) -> None:
         """Let the live wires begin where they are to begin now. Raise ValueError if that is not part of the surface."""
-        begin, live = self._board.begin(), self._live
+        begin, live = self._board.begin, self._live
         if begin is not None and self._sown != (live, begin):
             self._sown = None
             begin.sow(live, self._board.options.along)
@@ -91,6 +92,7 @@ class Wiring(Interaction):
             self.reason = self._find()
         except ValueError as error:
             self.reason = str(error)
+        self._choose()
         if self.runs:
             self._extend()
 
@@ -100,7 +102,7 @@ class Wiring(Interaction):
         if network.seed is None or target is None:
             return ""
         self.sow()
-        begin = self._board.begin()
+        begin = self._board.begin
         assert begin is not None
         if begin.is_at(target.pick, network.seed.pick):
             return ""
@@ -158,7 +160,7 @@ class Wiring(Interaction):
 
     def poll(self) -> bool:
         """Find the wires to the same target once more, if they were not final or begin elsewhere now."""
-        is_sown = self._sown is None or self._sown == (self._live, self._board.begin())
+        is_sown = self._sown is None or self._sown == (self._live, self._board.begin)
         if self.is_final and is_sown and not (self.runs and self.extended is None):
             return False
         before = self.shown
@@ -174,29 +176,18 @@ class Wiring(Interaction):
     def is_final(self) -> bool:
         return all(self.finals)
 
-    def lives(self) -> Sequence[LiveWire]:
-        return (self._live,)
-
     def is_aimed_at(self, target: Snap | None) -> bool:
         """Whether a target is under the cursor already, looked at from where it is now if wires are to be straight there."""
         if target != self.target:
             return False
         return not self._board.options.straight or target is None or target.seen_along == self.target.seen_along
 
-    @property
-    def active_index(self) -> int:
-        """The candidate that a click would keep."""
-        index = self.leading if self.chosen is None else self.chosen
-        # While that one is not computed and another is, show the one there is.
-        return next((at for at in self._order(index) if self.wires[at] is not None), index)
-
-    @property
-    def active(self) -> Wire | None:
-        return self.wires[self.active_index] if self.wires else None
-
-    @property
-    def active_final(self) -> bool:
-        return self.active is not None and self.finals[self.active_index]
+    def _choose(self) -> None:
+        """Find the candidate that a click would keep: while the one that comes first is not computed and another is, the one there is."""
+        first = self.leading if self.chosen is None else self.chosen
+        self.active_index = next((at for at in self._order(first) if self.wires[at] is not None), first)
+        self.active = self.wires[self.active_index] if self.wires else None
+        self.active_final = self.active is not None and self.finals[self.active_index]
 
     @property
     def others(self) -> tuple[Wire, ...]:
@@ -214,15 +205,11 @@ class Wiring(Interaction):
         return [(first + step) % count for step in range(count)]
 
     @property
-    def _is_decided(self) -> bool:
-        """Whether the wire that a click would keep is computed, and will not be another one when the rest is."""
-        index = self.active_index
-        return self.active_final and (self.is_final or index == self.chosen or (self.settled and index == self.leading))
-
-    @property
     def is_done(self) -> bool:
         """Whether a click keeps the active wire as it is: because it stays the one, or because the artist has seen it."""
-        return self._is_decided or (self._seen and self.active_final)
+        index = self.active_index
+        stays = all(self.finals) or index == self.chosen or (self.settled and index == self.leading)
+        return self.active_final and (stays or self._seen)
 
     @property
     def _is_reached(self) -> bool:
@@ -236,6 +223,7 @@ class Wiring(Interaction):
                 raise Refused(f"No wire reaches {pick_name(self.target.pick)}: it is not connected to the seed")
             raise Refused("same-edges" if self.is_final and self.active is not None else "no-next-candidate")
         self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
+        self._choose()
         if self.runs:
             self._extend()
 
@@ -267,7 +255,7 @@ class Wiring(Interaction):
     def keep(self) -> Edit:
         board, target, wire = self._board, self.target, self.active
         assert target is not None
-        begin = self._board.begin()
+        begin = self._board.begin
         assert begin is not None
         network = board.base
         seed = network.seed
@@ -291,25 +279,22 @@ class Wiring(Interaction):
         joined = network.joined(target, board.points, board.is_final)
         if self.is_straight and wire is not None:
             given = Given.of(replace(way.how.of(wire), id=way.id))
-            self._check(way, given.wire)
+            board.ground.check(way, given.wire)
             return Edit(joined.with_drawn(given, target.pick, ends))
         course = Course()
         if wire is not None:
             kept = replace(way.how.of(wire), id=way.id)
             if is_done:
-                self._check(way, kept)
+                board.ground.check(way, kept)
             ordered = in_order(self.wires, self.active_index) if self.is_final else ()
             course = Course((kept,), final=is_done, choices=ordered)
         search = None if course.final else WaySearch(way, board.ground, board.engines.hand_over(way.along), begin)
         return Edit(joined.with_drawn(way, target.pick, ends), (Begun(way, course, search),))
 
-    def _check(self, way: Way, wire: Wire) -> None:
-        self._board.ground.check(way, wire)
-
     def run_to_end(self) -> Edit:
         """Keep the live wire with its way to the end, which ends the chain."""
         board = self._board
-        network, begin = board.base, self._board.begin()
+        network, begin = board.base, board.begin
         seed = network.seed
         if seed is None or begin is None:
             raise Refused("Nothing to extend: place a seed first")
