@@ -102,7 +102,7 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     assert {(own[0], own[-1]) for own in chains(cutting.obj)} == {(0, 44), (72, 80)}
 
 
-def test_a_line_elsewhere_is_kept_though_the_live_chain_is_cut_before_it(
+def test_a_line_elsewhere_ends_the_live_chain_and_both_are_cut_in_one_step(
     cutting: Desk, capfd: pytest.CaptureFixture[str]
 ) -> None:
     session, ui = cutting.start(), cutting.ui
@@ -115,7 +115,7 @@ def test_a_line_elsewhere_is_kept_though_the_live_chain_is_cut_before_it(
     assert [own[0] for own in chains(cutting.obj)] == [0, 63]
     straight = (cutting.obj.data.vertices[0].co - cutting.obj.data.vertices[44].co).length
     assert length(cutting) == pytest.approx(straight + 2.0, rel=0.02)
-    assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
+    assert undo_steps(capfd)[-2:] == ["Before", "Draw Seamwires"]
 
 
 def test_a_wire_within_a_face_is_in_a_file_that_is_saved_within_the_chain(cutting: Desk, tmp_path: Path) -> None:

@@ -216,15 +216,12 @@ class Network:
         Oldest first.
     seed
         Where the live wire begins; None between chains.
-    mirror
-        The axes, 0 to 2, that wires are mirrored over which are kept from here on.
     strokes
         The strokes that live wires follow or keep from. Where they cross, the later one counts. Kept wires stay as they are.
     """
 
     requests: tuple[Request, ...] = ()
     seed: Seed | None = None
-    mirror: tuple[int, ...] = ()
     strokes: tuple[Stroke, ...] = ()
 
     def find(self, id: int) -> Request | None:
@@ -358,10 +355,7 @@ def surface_vertex(pick: Pick) -> Pick:
 
 
 class History:
-    """The networks before each step, and after each step that was undone.
-
-    The mirror belongs to the mesh and is no step of the drawing: what is brought back has the mirror that there is now.
-    """
+    """The networks before each step, and after each step that was undone."""
 
     def __init__(self) -> None:
         self._undo: list[Network] = []
@@ -377,39 +371,34 @@ class History:
 
     def can_undo(self, now: Network) -> bool:
         """Whether a step led to something else than there is now."""
-        now = _without_mirror(now)
         return any(network != now for network in self._undo)
 
     def step(self, before: Network) -> None:
         """Remember what was there before a new step."""
-        self._undo.append(_without_mirror(before))
+        self._undo.append(before)
         self._redo.clear()
 
-    def forget_step(self, now: Network) -> Network:
+    def forget_step(self) -> Network:
         """Return what was there before the last step, as if that had never been done. There must be a step."""
-        return replace(self._undo.pop(), mirror=now.mirror)
+        return self._undo.pop()
 
     def back(self, now: Network) -> Network | None:
         """Return what was there before the last step that changed something, or None if there is no such step."""
         while self._undo:
             network = self._undo.pop()
-            if network != _without_mirror(now):
-                self._redo.append(_without_mirror(now))
-                return replace(network, mirror=now.mirror)
+            if network != now:
+                self._redo.append(now)
+                return network
         return None
 
     def forth(self, now: Network) -> Network | None:
         """Return what the step did that was taken back last, or None if there is no such step."""
         if not self._redo:
             return None
-        self._undo.append(_without_mirror(now))
-        return replace(self._redo.pop(), mirror=now.mirror)
+        self._undo.append(now)
+        return self._redo.pop()
 
     def forget(self) -> None:
         """Forget all steps: what was done is Blender's to undo now."""
         self._undo.clear()
         self._redo.clear()
-
-
-def _without_mirror(network: Network) -> Network:
-    return replace(network, mirror=())

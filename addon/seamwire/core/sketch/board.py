@@ -100,7 +100,7 @@ class Board:
         self.stops = Stops(seams, self.symmetry)
         self.engines = Engines(make_live, make_stroke)
         self.engines.use(options.metric, options.strengths, options.clamp)
-        self.network = Network(mirror=options.mirror)
+        self.network = Network()
         self.courses = Courses()
         own = proxy(self)
         self.ground = Ground(
@@ -113,7 +113,8 @@ class Board:
         self.revision = self.network_revision = 0
         self.drawn = Drawn(mirror=options.mirror)
         self.begin: Begin | None = None
-        self._completed: dict[Wire, tuple[object, Wire]] = {}
+        self._derived: dict[Wire, tuple[object, Wire]] = {}
+        self._completed: dict[Wire, Wire] = {}
 
     @property
     def base(self) -> Network:
@@ -144,7 +145,7 @@ class Board:
         """Return the settings of a new wire."""
         options = self.options
         finish = options.finish if along == "SURFACE" and options.marking else DEFAULT_FINISH
-        return How(options.marking, self.network.mirror, self.engines.strengths[along], finish)
+        return How(options.marking, self.options.mirror, self.engines.strengths[along], finish)
 
     def draw(self) -> None:
         """Derive the wires from the network and the courses."""
@@ -155,11 +156,11 @@ class Board:
             on = None if own.goes_on is None else last.get(own.goes_on[0])
             for row, wire in enumerate(course.wires):
                 made_of = row, on, own.goes_on
-                known = self._completed.get(wire)
+                known = self._derived.get(wire)
                 if known is None or known[0] != made_of:
-                    known = self._completed[wire] = made_of, self._complete(wire, row, own, on)
+                    known = self._derived[wire] = made_of, self._complete(wire, row, own, on)
                 drawn.append(known[1])
-        before, self.drawn = self.drawn, Drawn(tuple(drawn), self.network.strokes, self.network.mirror)
+        before, self.drawn = self.drawn, Drawn(tuple(drawn), self.network.strokes, self.options.mirror)
         changed = before.wires != self.drawn.wires or before.mirror != self.drawn.mirror
         self.network_revision += changed
         self.revision += 1
@@ -172,7 +173,9 @@ class Board:
         if row == 0 and wire.along == "EDGES":
             heading = None if on is None or own.goes_on is None else heading_of(on, own.goes_on[1], own.start)
             wire = wire if heading == wire.heading else wire.changed(heading=heading)
-        return self.images.completed(wire) if wire.images is None else wire
+        if wire not in self._completed:
+            self._completed[wire] = self.images.completed(wire) if wire.images is None else wire
+        return self._completed[wire]
 
     def find_begin(self) -> None:
         """Find where wires begin now."""

@@ -221,7 +221,7 @@ class Dragging(Interaction):
         requests = {each.request.id: each.request for each in begun}
         gone = [leg.own.id for leg in self._legs if leg.own.id not in requests]
         network = self._before.without(*gone).replacing({id: (own,) for id, own in requests.items()})
-        network = replace(self._with_seed(network, pick), mirror=board.options.mirror)
+        network = self._with_seed(network, pick)
         return Edit(network.joined(self.target, board.points, board.is_final), begun, report=report)
 
     def _with_seed(self, network: Network, pick: Pick) -> Network:

@@ -62,6 +62,11 @@ class Offering(Interaction):
         return self.edges.final and self.cuts.final
 
     @property
+    def is_idle(self) -> bool:
+        """Whether no offers are asked for, and no click has just taken a ridge."""
+        return not (self.edges.wanted or self.cuts.wanted or self.cuts.bends) and self._crest_taken is None
+
+    @property
     def bends(self) -> bool:
         """Whether a click would take the last closed cut, bent."""
         return self.cuts.bends and self.cuts.wanted

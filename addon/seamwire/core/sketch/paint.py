@@ -69,7 +69,7 @@ def paint(
 
 def _wires(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -> Iterator[ShownWire]:
     """Yield the wires from bottom to top: the kept ones, and everything live."""
-    options, network, target = board.options, board.network, now.target
+    options, target = board.options, now.target
     drag = now if isinstance(now, Dragging) else None
     line = now if isinstance(now, Lining) else None
     moved = {} if drag is None else {wire.id: wire for wire in drag.moved}
@@ -88,7 +88,7 @@ def _wires(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -
     for wire in moved.values():
         yield live(wire, Role.MOVED, wire.finish)
     for wire in () if line is None else line.line.wires:
-        own = replace(wire, marks=options.marking, mirror=network.mirror)
+        own = replace(wire, marks=options.marking, mirror=options.mirror)
         yield live(own, Role.FOLLOWING, options.finish)
     if now is wiring:
         for wire in reversed(wiring.others):

@@ -296,7 +296,8 @@ class Sketch(Board):
         self._read_progress()
         before, vanish = (self.wiring.shown, self.reason, self.interaction), False
         with self._guarded():
-            vanish = self.offering.hover(target, loop, bend)
+            if is_offering or not self.offering.is_idle:
+                vanish = self.offering.hover(target, loop, bend)
             self.interaction = own
             if is_offering:
                 self.wiring.target = target
@@ -652,8 +653,8 @@ class Sketch(Board):
             self._compute_anew()
         if options.clear != before.clear:
             self.reason = ""
-        if options.mirror != self.network.mirror:
-            self.go_to(replace(self.network, mirror=options.mirror))
+        if options.mirror != before.mirror:
+            self.draw()
         return done
 
     def _compute_anew(self) -> None:
@@ -703,7 +704,7 @@ class Sketch(Board):
     def _restore(self, network: Network) -> bool:
         """Go back or forth to a network of the history."""
         back = [stroke.acts_on for stroke in network.strokes if stroke not in self.network.strokes]
-        self.go_to(replace(network, mirror=self.options.mirror))
+        self.go_to(network)
         self.new_report = ""
         self._last_click = None
         self.offering.forget_crest()
@@ -713,18 +714,19 @@ class Sketch(Board):
         return True
 
     def adopt(self, own: Drawn, seams: ArrayLike) -> None:
-        """Go on with the wires and strokes that the mesh has now, but with the mirror as it is. `undo` does not lead back behind it.
+        """Go on with the wires and strokes that the mesh has now. `undo` does not lead back behind it.
 
         `seams`, (k, 2), are the edges that are seams but no wires.
         """
         self._calm()
         self.stops.set_seams(seams)
         self.history.forget()
+        self._derived.clear()
         self._completed.clear()
         # Wires that were just cut do not know their images. Images are the edges that are seams.
         among = {tuple(sorted(pair)) for pair in np.asarray(seams, dtype=np.int64).reshape(-1, 2).tolist()}
         known = tuple(wire if wire.images is not None else self.images.completed(wire, among) for wire in own.wires)
-        self.go_to(Network(linked(known), mirror=self.network.mirror, strokes=own.strokes))
+        self.go_to(Network(linked(known), strokes=own.strokes))
         self.new_report = ""
         self.offering.edges.forget()
         self._settle()
@@ -732,5 +734,5 @@ class Sketch(Board):
     def _take_back_click(self, edge: Pick) -> None:
         """Undo the last click if it was on an edge, and forget it."""
         if self._last_click == (undirected(edge), self.history.steps):
-            self._restore(self.history.forget_step(self.network))
+            self._restore(self.history.forget_step())
         self._last_click = None

@@ -58,7 +58,7 @@ def directed(wire: Wire | None, end: End) -> Edge | None:
     """Return the last edge of a wire along edges, towards one of its ends."""
     if wire is None or wire.closed or wire.along == "SURFACE" or len(wire.vertices) < 2:
         return None
-    return wire.last_edge if end == "end" else (wire.vertices[1], wire.vertices[0])
+    return wire.vertices[-2:] if end == "end" else wire.vertices[1::-1]
 
 
 def heading_of(wire: Wire, end: End, start: Pick) -> Edge | None:

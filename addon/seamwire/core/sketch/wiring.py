@@ -70,13 +70,14 @@ class Wiring(Interaction):
 
     # Where it begins
 
-    def sow(self) -> None:
-        """Let the live wires begin where they are to begin now. Raise ValueError if that is not part of the surface."""
+    def sow(self) -> LiveWire:
+        """Return the live wires, which begin where they are to begin now. Raise ValueError if that is not part of the surface."""
         begin, live = self._board.begin, self._live
         if begin is not None and self._sown != (live, begin):
             self._sown = None
             begin.sow(live, self._board.options.along)
             self._sown = live, begin
+        return live
 
     @property
     def _live(self) -> LiveWire:
@@ -101,8 +102,7 @@ class Wiring(Interaction):
         along, network = board.options.along, board.network
         if network.seed is None or target is None:
             return ""
-        self.sow()
-        begin = self._board.begin
+        live, begin = self.sow(), board.begin
         assert begin is not None
         if begin.is_at(target.pick, network.seed.pick):
             return ""
@@ -112,7 +112,7 @@ class Wiring(Interaction):
         lead, avoid = target.pick, None
         if along == "EDGES" and closes is not None:
             lead, avoid = goal(target.pick, board.wire(closes.id))
-        found = self._live.wires(for_live(lead, along))
+        found = live.wires(for_live(lead, along))
         candidates, self.leading = by_number(found)
         self.finals = tuple(each.final for each in candidates)
         self.settled = found.settled
@@ -184,8 +184,9 @@ class Wiring(Interaction):
 
     def _choose(self) -> None:
         """Find the candidate that a click would keep: while the one that comes first is not computed and another is, the one there is."""
-        first = self.leading if self.chosen is None else self.chosen
-        self.active_index = next((at for at in self._order(first) if self.wires[at] is not None), first)
+        first, places = self.leading if self.chosen is None else self.chosen, [*range(len(self.wires))]
+        order = places[first:] + places[:first]
+        self.active_index = next((at for at in order if self.wires[at] is not None), first)
         self.active = self.wires[self.active_index] if self.wires else None
         self.active_final = self.active is not None and self.finals[self.active_index]
 

@@ -15,7 +15,7 @@ def test_a_mirror_that_is_set_while_a_seed_is_dragged_stays() -> None:
     session.drag_to(4)
     assert use(session, mirror=(0,))
     assert session.drag_end()
-    assert session.network.mirror == session.options.mirror == (0,)
+    assert session.drawn.mirror == session.options.mirror == (0,)
 
 
 def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:
