@@ -199,7 +199,7 @@ def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
     through = None if wire.through is None else pick(wire.through, -1)
     ends = sorted(through) if isinstance(through, tuple) else None
     # Mirrored places are found as others are.
-    kept = replace(wire, alternatives=(), offers=(), heading=None, mirror=())
+    kept = replace(wire, offers=(), heading=None, mirror=())
     return kept.anew(
         vertices=vertices,
         points=points[around],

@@ -184,7 +184,6 @@ class Symmetry:
             end=start if closed else vertices[-1],
             closed=closed,
             heading=None,
-            alternatives=(),
         )
 
 

@@ -65,9 +65,6 @@ class Wire:
         The directed edge that it goes on from, where it begins at the end of another wire.
     follow
         Which of the library's wires it is, see `FOLLOWS`.
-    alternatives
-        The others of them that run elsewhere, each once, in the order in which they come forward; they have no
-        alternatives themselves.
     strength
         The metric's largest anisotropy when it was found; 0: not known, or it needs none.
     finish
@@ -100,7 +97,6 @@ class Wire:
     images: tuple[Edge, ...] | None = None
     heading: Edge | None = None
     follow: int = 0
-    alternatives: tuple[Wire, ...] = ()
     strength: float = 0.0
     finish: Finish = DEFAULT_FINISH
     kind: LoopKind | None = None
@@ -157,23 +153,10 @@ class Wire:
             return self.vertices == other.vertices and len(self.beside) == len(other.beside)
         return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
 
-    def retraced(self) -> Wire:
-        """Return its next alternative in its place, itself as the last one after that. There must be one."""
-        following, *rest = self.alternatives
-        back = replace(self, alternatives=())
-        return replace(
-            following,
-            id=self.id,
-            marks=self.marks,
-            mirror=self.mirror,
-            finish=self.finish,
-            alternatives=(*rest, back),
-        )
-
     def drawn(self, **course: object) -> Wire:
         """Return the wire with another course, which no click on an edge offered."""
         course = {"faces": None, **course}
-        return self.changed(**course, images=None, alternatives=(), kind=None, through=None, planned=False, offers=())
+        return self.changed(**course, images=None, kind=None, through=None, planned=False, offers=())
 
     def anew(self, **changes: object) -> Wire:
         """Return it as another wire, with changes."""
