@@ -51,9 +51,9 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     The first three are for reading the mesh, for starting the computation in other threads, and until a seed can be given. The others are
     from the click to the first wire, from the click to both final wires, and from a move of the cursor to the next wire.
     """
-    from seamwire.core.drawing import drawing, session
     from seamwire.core.picking.camera import Camera
     from seamwire.core.picking.picker import Picker
+    from seamwire.core.sketch.sketch import Sketch
     from seamwire.core.solver.solver import LiveMaker
     from seamwire.mesh import edit_mesh
     from seamwire.operators.chain import TICK
@@ -64,10 +64,8 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     edit_mesh.Cage(obj)  # as the tool does
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(
-        drawing.Drawing(
-            LiveMaker(arrays), arrays.points, Options(along=along), edges=arrays.edges, triangles=arrays.triangles
-        )
+    wires = Sketch(
+        LiveMaker(arrays), arrays.points, Options(along=along), edges=arrays.edges, triangles=arrays.triangles
     )
     Picker(arrays).surface_at(Camera(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
@@ -78,7 +76,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     watch.lap()
     wires.start(top)
     wires.hover(bottom)
-    while wires.picture.active is None and wires.cursor.computing:
+    while wires.wiring.active is None and wires.computing:
         time.sleep(TICK)  # as the tool waits
         wires.poll()
     steps["shown"] = watch.lap()
@@ -86,7 +84,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     steps["final"] = watch.lap()
     wires.hover(beside)
     steps["next"] = watch.lap()
-    if wires.picture.active is None:
+    if wires.wiring.active is None:
         sys.exit(f"No wire leads from the top of {obj.name} to its bottom")
     return steps
 

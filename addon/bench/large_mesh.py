@@ -120,7 +120,7 @@ def count_lives() -> None:
 
 def settle(ui: driver.Ui) -> None:
     """Wait until nothing is computed and Blender has drawn its last picture."""
-    ui.wait_until(lambda: not (session() is not None and session().cursor.computing) and not overlay_busy(), SECONDS)
+    ui.wait_until(lambda: not (session() is not None and session().computing) and not overlay_busy(), SECONDS)
     ui.wait(SAMPLES)
 
 
@@ -247,11 +247,11 @@ def measure_first_chain(
         ui.event("LEFTMOUSE", "RELEASE", tuple(places[0]), ticks=1)
         ui.wait_until(lambda: session().seed is not None, SECONDS)
         ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 2]), ticks=1)
-        ui.wait_until(lambda: session().cursor.live.active is not None, SECONDS)
+        ui.wait_until(lambda: session().wiring.active is not None, SECONDS)
         found["first wire shown"] = time.perf_counter() - start
-        ui.wait_until(lambda: session().cursor.live.active_final, SECONDS)
+        ui.wait_until(lambda: session().wiring.active_final, SECONDS)
         found["first wire final"] = time.perf_counter() - start
-        ui.wait_until(lambda: not session().cursor.computing, SECONDS)
+        ui.wait_until(lambda: not session().computing, SECONDS)
         found["both wires"] = time.perf_counter() - start
 
 
@@ -261,9 +261,9 @@ def measure_second_seed(ui: driver.Ui, places: NDArray[np.float64], found: dict[
     clicked = time.perf_counter()
     ui.event("LEFTMOUSE", "RELEASE", tuple(places[MOVES // 2]), ticks=1)
     ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
-    ui.wait_until(lambda: session().cursor.live.active is not None, SECONDS)
+    ui.wait_until(lambda: session().wiring.active is not None, SECONDS)
     found["next wire shown"] = time.perf_counter() - clicked
-    ui.wait_until(lambda: session().cursor.live.active_final, SECONDS)
+    ui.wait_until(lambda: session().wiring.active_final, SECONDS)
     found["next wire final"] = time.perf_counter() - clicked
     settle(ui)
 
@@ -298,10 +298,10 @@ def measure_second_chain(ui: driver.Ui, places: NDArray[np.float64], found: dict
         ui.event("LEFTMOUSE", "PRESS", at, ticks=0)
         ui.event("LEFTMOUSE", "RELEASE", at, ticks=0)
         ui.event("MOUSEMOVE", "NOTHING", then, ticks=0)
-        ui.wait_until(lambda: session() is not None and session().cursor.live.active is not None, SECONDS)
+        ui.wait_until(lambda: session() is not None and session().wiring.active is not None, SECONDS)
         found["second chain, wire computed"] = time.perf_counter() - start
         found["second chain, redraws before"] = pictures.count
-        ui.wait_until(lambda: pictures.first(lambda: session().cursor.live.active is not None) is not None, SECONDS)
+        ui.wait_until(lambda: pictures.first(lambda: session().wiring.active is not None) is not None, SECONDS)
         found["second chain, wire shown"] = pictures.moment - start
     found["second chain, live wires made"] = lives_made() - lives
     leave(ui)
@@ -320,10 +320,10 @@ def moves(ui: driver.Ui, places: NDArray[np.float64], holds: Holds) -> tuple[NDA
     took, ours = [], []
     for place in places:
         first = len(holds.calls)
-        seen = session().drawing.revision
+        seen = session().revision
         start = time.perf_counter()
         end = drawn(ui, lambda place=place: move_and_redraw(ui, tuple(place)))
-        if session().drawing.revision != seen:  # else the cursor is where it was, and nothing was to be done
+        if session().revision != seen:  # else the cursor is where it was, and nothing was to be done
             took.append(end - start)
             ours.append(sum(spent for _, _, spent in holds.calls[first:]))
     return np.array(took), np.array(ours)

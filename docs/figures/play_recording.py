@@ -152,7 +152,7 @@ class Player:
         """Send an event where the pointer is, wait until what is shown is final, and count the time of the tool."""
         began = time.perf_counter()
         self.ui.event(kind, value, self.at, **modifiers)
-        self.ui.wait_until(lambda: session() is None or not session().cursor.computing, 120.0)
+        self.ui.wait_until(lambda: session() is None or not session().computing, 120.0)
         self.played.tool += max(0.0, time.perf_counter() - began - self.bare)
 
     def view(self, azimuth: float, elevation: float, zoom: float = 1.0, u: float = 0.0, v: float = 0.0) -> None:

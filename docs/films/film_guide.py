@@ -58,7 +58,7 @@ def guide(film: Film) -> None:
     film.go(film.vertex(0.55, -0.40, -0.30))
     film.ui.event("LEFTMOUSE", "PRESS", film.at)
     film.go(film.vertex(0.40, -0.65, -0.12))
-    film.ui.wait_until(lambda: session().cursor.moved and not session().cursor.computing)
+    film.ui.wait_until(lambda: session().moved[0] and not session().computing)
     film.picture("drag")
     film.ui.event("LEFTMOUSE", "RELEASE", film.at)
     film.settle()

@@ -104,7 +104,7 @@ class Film:
         """Wait until what is shown is final. If the film shows the time since it began, stand still for it."""
         began = began or time.perf_counter()
         if session() is not None:
-            self.ui.wait_until(lambda: session() is None or not session().cursor.computing, 60.0)
+            self.ui.wait_until(lambda: session() is None or not session().computing, 60.0)
         late = int((time.perf_counter() - began - self.bare) / self.STEP * self.rate)
         if self.filming and self.frames and late > 0:
             self.late.append(late)
