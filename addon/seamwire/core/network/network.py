@@ -64,7 +64,6 @@ class Snap:
 
     @property
     def ends_chains(self) -> bool:
-        """Whether a chain that comes here ends here."""
         return self.to in {"SEED", "WIRE", "SEAM"}
 
 
@@ -124,7 +123,6 @@ class Request:
 
     @cached_property
     def places(self) -> tuple[Pick, Pick]:
-        """Its ends, of an edge the smaller vertex first."""
         return undirected(self.start), undirected(self.end)
 
 
@@ -247,7 +245,6 @@ class Network:
         return seed.first if self.at(seed.first) else None
 
     def closes(self, target: Snap) -> bool:
-        """Whether a wire from the seed to a target closes the chain."""
         first = self.closing_point
         return target.to == "SEED" and first is not None and is_same(first, target.pick)
 
@@ -259,15 +256,12 @@ class Network:
         return Seed(target.pick, after=(own[0][0].id, own[0][1]))
 
     def seeds(self) -> list[Pick]:
-        """Return the ends of the requests, each once, in the order they were placed."""
         return list({pick: None for own in self.requests if not own.closed for pick in own.places})
 
     def before(self, own: Request) -> Request | None:
-        """Return the request that another one goes on from."""
         return None if own.goes_on is None else self.find(own.goes_on[0])
 
     def after(self, own: Request) -> Request | None:
-        """Return the request that goes on from the end of another one."""
         return next((each for each in self.requests if each.goes_on == (own.id, "end")), None)
 
     # Edits
@@ -285,7 +279,6 @@ class Network:
         return self._relinked(lambda link: None if link[0] in ids else link)
 
     def replacing(self, new: Mapping[int, tuple[Request, ...]]) -> Network:
-        """Return the network with other requests in place of some, by their numbers."""
         return replace(self, requests=tuple(each for own in self.requests for each in new.get(own.id, (own,))))
 
     def _relinked(self, change: Callable[[Link], Link | None]) -> Network:
@@ -374,7 +367,6 @@ class History:
         return any(network != now for network in self._undo)
 
     def step(self, before: Network) -> None:
-        """Remember what was there before a new step."""
         self._undo.append(before)
         self._redo.clear()
 

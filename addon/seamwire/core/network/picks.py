@@ -66,7 +66,6 @@ def is_same(one: Pick | None, other: Pick | None) -> bool:
 
 
 def pick_name(pick: Pick) -> str:
-    """Return a vertex, an edge or a point of a face as messages call it."""
     if isinstance(pick, tuple):
         return f"edge {pick[0]}-{pick[1]}"
     return "this point" if isinstance(pick, FacePoint) else f"vertex {pick}"

@@ -26,7 +26,6 @@ class Stops:
         self.set_seams(seams)
 
     def set_seams(self, seams: ArrayLike) -> None:
-        """Go on with other seams, (k, 2)."""
         self.seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
         self._last: tuple[Drawn, NDArray[np.int32], NDArray[np.int32]] | None = None
 
@@ -42,7 +41,6 @@ class Stops:
         return np.unique(np.concatenate([self.kept(network), own, on_plane]))
 
     def plane(self, network: Drawn) -> NDArray[np.int32]:
-        """Return the vertices on the mirror's plane."""
         plane = self._symmetry.on_plane(network.mirror)
         return np.fromiter(plane, dtype=np.int32, count=len(plane))
 

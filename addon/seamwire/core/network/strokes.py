@@ -134,7 +134,6 @@ def longest_side(mesh: NDArray[np.float64]) -> float:
 
 
 def _thinned(path: NDArray[np.float64], step: float) -> NDArray[np.int64]:
-    """Return the points of a stroke that are at least a step from those before, and its ends."""
     if len(path) < 2 or not step > 0.0:
         return np.arange(len(path))
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
@@ -176,7 +175,6 @@ def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int
 
 
 def for_library(stroke: Stroke) -> object:
-    """Return a stroke as the library takes it."""
     return native.load().Scribble(
         stroke.points,
         faces=stroke.faces,

@@ -188,7 +188,6 @@ class Symmetry:
 
 
 def _is_same_curve(one: Wire, other: Wire) -> bool:
-    """Whether two images of a wire, or the wire and its image, have the same points, in either order."""
     if one.points.shape != other.points.shape:
         return False
     tolerance = _SAME_PLACE * float(np.abs(one.points).max())

@@ -32,7 +32,6 @@ _ids = itertools.count()
 
 
 def new_id() -> int:
-    """Return a number that no wire and no request has yet."""
     return next(_ids)
 
 
@@ -123,7 +122,6 @@ class Wire:
 
     @property
     def cuts(self) -> bool:
-        """Whether its finish cuts faces."""
         return FINISHES[self.finish].cuts
 
     @property
@@ -133,7 +131,6 @@ class Wire:
 
     @property
     def last_edge(self) -> Edge:
-        """Its last edge in the direction that it runs."""
         return self.vertices[-2], self.vertices[-1]
 
     @property
@@ -148,7 +145,6 @@ class Wire:
         return self.changed(along="SURFACE", heading=None, start=self.vertices[0], end=self.vertices[-1])
 
     def like(self, other: Wire) -> bool:
-        """Whether another wire runs the same way."""
         if self.along == other.along == "EDGES":
             return self.vertices == other.vertices and len(self.beside) == len(other.beside)
         return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
@@ -159,7 +155,6 @@ class Wire:
         return self.changed(**course, images=None, kind=None, through=None, planned=False, offers=())
 
     def anew(self, **changes: object) -> Wire:
-        """Return it as another wire, with changes."""
         return self.changed(**changes, images=None, id=new_id())
 
     def changed(self, **changes: object) -> Wire:

@@ -56,7 +56,6 @@ class LoopOffers(Offers):
             self.final = self.final and same and self._with_parts == self._parts.is_complete
 
     def wait(self) -> None:
-        """Wait for what the offers need beside the library."""
         self._parts.wait()
         self.final = self.final and self._with_parts == self._parts.is_complete
 
@@ -70,7 +69,6 @@ class LoopOffers(Offers):
         return super().aim(pick)
 
     def took(self, edge: Edge, wire: Wire) -> None:
-        """Remember which wire a click on an edge took, even if it crosses the edge."""
         self._taken = undirected(edge), wire
 
     def taken_through(self, network: Drawn, edge: Edge) -> Wire | None:
@@ -88,11 +86,9 @@ class LoopOffers(Offers):
         self._parts.stop()
 
     def takes(self, pick: Pick) -> bool:
-        """Whether it is an edge."""
         return isinstance(pick, tuple)
 
     def part_border(self, edge: Edge) -> set[Edge]:
-        """Return the edges of the likeliest border of a part beside an edge, or nothing."""
         borders = [] if self._parts.finder is None else self._parts.finder.borders(edge)
         chain = borders[0].tolist() if borders else []
         return {undirected(pair) for pair in zip(chain, chain[1:] + chain[:1], strict=True)}

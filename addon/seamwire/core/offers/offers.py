@@ -36,17 +36,14 @@ class Offers:
 
     @property
     def wire(self) -> Wire | None:
-        """The offer that is shown."""
         return self.offers[self.choice] if self.offers else None
 
     @property
     def kinds(self) -> tuple[LoopKind, ...]:
-        """The kinds of the offers."""
         return tuple(offer.kind for offer in self.offers if offer.kind is not None)
 
     @property
     def missing(self) -> bool:
-        """Return whether requested offers are missing."""
         return self.wanted and not self.offers
 
     @property
@@ -55,7 +52,6 @@ class Offers:
         return self.wanted and not (self.offers and self.final)
 
     def takes(self, pick: Pick) -> bool:
-        """Whether there may be offers for a pick."""
         raise NotImplementedError
 
     def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:

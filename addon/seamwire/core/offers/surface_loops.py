@@ -62,7 +62,6 @@ class TakenCut:
     metric: tuple[object, ...] = ()
 
     def is_in(self, network: Drawn) -> bool:
-        """Return whether a network still has its wires unchanged."""
         own = [(wire, network.find(wire)) for wire in self.wires]
         return all(now is not None and now.like(wire) for wire, now in own)
 
@@ -117,7 +116,6 @@ class CutMemory:
         self._size = 0
 
     def clear(self) -> None:
-        """Forget all cuts."""
         self._cuts.clear()
         self._size = 0
 
@@ -173,7 +171,6 @@ class SurfaceLoops(Offers):
         """Whether what is taken is to be cut into the faces: else two cuts that go to the same edges are one."""
 
     def takes(self, pick: Pick) -> bool:
-        """Whether it is a point of the surface."""
         return not isinstance(pick, tuple)
 
     def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:
@@ -312,12 +309,10 @@ class SurfaceLoops(Offers):
 
 
 def _course(cut: ClosedCut) -> NDArray[np.float64]:
-    """Return how a cut runs, (k, 3), from its point around to it."""
     return np.concatenate([np.asarray(piece.points, dtype=np.float64) for piece in cut.pieces])
 
 
 def _whole(pieces: tuple[Wire, ...], separates: bool) -> Wire:
-    """Return wires that lead around as one loop."""
     kind: LoopKind = "ACROSS" if separates else "HANDLE"
     return replace(
         pieces[0].anew(

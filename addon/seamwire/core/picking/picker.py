@@ -60,11 +60,9 @@ class Picker:
         self.set_seams(seams)
 
     def wait(self) -> None:
-        """Wait until the threads have finished."""
         self._core.wait()
 
     def set_seams(self, seams: ArrayLike) -> None:
-        """Take other edges, (s, 2), as the seams that no wire runs along."""
         self._seams = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         ends = self._arrays.points[self._seams.reshape(-1)]
         self._core.set_layer(_SEAMS, ends, np.arange(len(self._seams)), _SEAM_REACH)
@@ -193,7 +191,6 @@ class Picker:
         self._set_curves(_WIRES, [wire.points for wire in wires], _WIRE_REACH)
 
     def _is_new(self, name: str, *key: object) -> bool:
-        """Return whether the library is to be told of something else than the last time, and take note of it."""
         before, self._told[name] = self._told.get(name), key
         return before != key
 

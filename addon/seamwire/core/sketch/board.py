@@ -142,7 +142,6 @@ class Board:
         return self.courses.of(own).final
 
     def how(self, along: str) -> How:
-        """Return the settings of a new wire."""
         options = self.options
         finish = options.finish if along == "SURFACE" and options.marking else DEFAULT_FINISH
         return How(options.marking, self.options.mirror, self.engines.strengths[along], finish)
@@ -178,7 +177,6 @@ class Board:
         return self._completed[wire]
 
     def find_begin(self) -> None:
-        """Find where wires begin now."""
         seed = self.network.seed
         self.begin = None
         if seed is not None:
@@ -221,7 +219,6 @@ class Board:
         return self.images.of(wire, self.drawn, curves)
 
     def feature_strength(self) -> NDArray[np.float64] | None:
-        """Return the feature strength of each vertex, (n,), or None while it is computed."""
         return self.engines.get(self.options.along).feature_strength()
 
     def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
@@ -254,13 +251,11 @@ class Board:
                 yield self._finder[1].find(amount, progress=progress).of_face
 
     def refuse(self, why: str) -> bool:
-        """Tell why something is not done."""
         self.reason = why
         self.revision += 1
         return False
 
     def tell(self, what: str) -> None:
-        """Report something that happened."""
         self.new_report = what
         self.reports.append(self.new_report)
         self.revision += 1

@@ -51,7 +51,6 @@ class Change:
 
     @cached_property
     def rerouted(self) -> int:
-        """How many wires have another course than before."""
         known = {wire.id: wire for wire in self.before.wires}
         return sum(
             wire.id in known and not wire.like(known[wire.id]) and not self._is_part(wire) for wire in self.after.wires
@@ -59,24 +58,20 @@ class Change:
 
     @cached_property
     def removed(self) -> int:
-        """How many wires are gone."""
         left = {wire.id for wire in self.after.wires}
         return sum(wire.id not in left for wire in self.before.wires)
 
     @cached_property
     def strokes(self) -> tuple[int, int]:
-        """How many strokes are new, and how many are gone."""
         before, after = ({stroke.id for stroke in network.strokes} for network in (self.before, self.after))
         return len(after - before), len(before - after)
 
     @cached_property
     def _gone(self) -> tuple[Wire, ...]:
-        """The former wires that were changed or removed."""
         left = {id(wire) for wire in self.after.wires}
         return tuple(wire for wire in self.before.wires if id(wire) not in left)
 
     def _is_part(self, wire: Wire) -> bool:
-        """Whether a wire is a part of a former one that was split."""
         return any(_is_run(wire.vertices, own) for own in self._gone)
 
     def finishes(self, wire: Wire) -> bool:
@@ -85,7 +80,6 @@ class Change:
 
 
 def _is_run(part: tuple[int, ...], wire: Wire) -> bool:
-    """Whether vertices follow one another along a longer wire as well."""
     if len(part) >= len(wire.vertices) or part[0] not in wire.vertices:
         return False
     begin = wire.vertices.index(part[0])

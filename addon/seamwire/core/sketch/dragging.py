@@ -45,7 +45,6 @@ class Leg:
         self.begin.sow(self.live, wire.along)
 
     def request(self, pick: Pick, meets: Link | None) -> Way:
-        """Return the request for the wire with its moving end at a pick."""
         ends = {"start": self.wire.start, "end": self.wire.end, self.moving: pick}
         return Way(
             along=self.wire.along,
@@ -95,7 +94,6 @@ class Dragging(Interaction):
 
     @property
     def place(self) -> Pick:
-        """Where the seed is now."""
         return self._seed if self.target is None else self.target.pick
 
     @property
@@ -111,7 +109,6 @@ class Dragging(Interaction):
         return [leg.live for leg in self._legs]
 
     def aim(self, target: Snap) -> None:
-        """Lead the wires to another place. If that fails, the old wires stay."""
         self.target = target
         self._is_final = self._is_solved = True
         try:
@@ -178,7 +175,6 @@ class Dragging(Interaction):
 
     @property
     def ids(self) -> set[int]:
-        """The numbers of the wires that follow."""
         return {leg.own.id for leg in self._legs}
 
     @property

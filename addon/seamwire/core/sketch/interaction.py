@@ -63,5 +63,4 @@ class Interaction:
         return True
 
     def lives(self) -> Sequence[LiveWire]:
-        """Return the live wires that compute for it."""
         return ()

@@ -121,7 +121,6 @@ class EdgeLine:
         self.wires = (self._wire(chain),) if len(chain) > 1 else ()
 
     def _nearest_of(self, end: Pick | None, place: NDArray[np.float64]) -> int | None:
-        """Return the vertex that the line ends at, of an edge the nearer one."""
         if isinstance(end, FacePoint):
             return end.vertex
         if isinstance(end, tuple):
@@ -165,7 +164,6 @@ class EdgeLine:
         return True
 
     def lives(self) -> list[LiveWire]:
-        """Return what computes the wires."""
         return [] if self._fork is None else [self._fork]
 
 
@@ -213,7 +211,6 @@ class SurfaceLine:
     def to(
         self, points: NDArray[np.float64], triangles: NDArray[np.int32], end: Pick | None, stops: NDArray[np.int64]
     ) -> None:
-        """Lead the wires to where the line is by now."""
         del stops  # what wires across the surface snap to is told by `end` alone
         self.points = points
         if len(points) > 1:
@@ -353,7 +350,6 @@ class SurfaceLine:
         self.wires = (*self._legs, live) if live is not None else tuple(self._legs)
 
     def lives(self) -> list[LiveWire]:
-        """Return what computes the wires."""
         return [self._live]
 
 
@@ -374,7 +370,6 @@ def _farthest(points: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
 
 
 def _thinned(curve: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return some places of a curve, its ends among them."""
     if len(curve) <= _SAMPLES:
         return curve
     return curve[np.linspace(0, len(curve) - 1, _SAMPLES).round().astype(int)]

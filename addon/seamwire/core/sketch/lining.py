@@ -111,7 +111,6 @@ class Lining(Interaction):
         return self._added(network, (start, end), wires, is_done, seed, stays)
 
     def warn(self) -> None:
-        """Report why the wires do not follow the whole line."""
         if self.line.message:
             self._board.tell(self.line.message)
 

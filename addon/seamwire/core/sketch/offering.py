@@ -54,7 +54,6 @@ class Offering(Interaction):
 
     @property
     def offers(self) -> Offers:
-        """The offers for the way that wires run."""
         return self.edges if self._board.options.along == "EDGES" else self.cuts
 
     @property
@@ -76,7 +75,6 @@ class Offering(Interaction):
         return [board.engines.cuts() if board.options.along == "SURFACE" else board.engines.get("EDGES")]
 
     def takes(self, target: Snap) -> bool:
-        """Whether a click at a target takes the offer that is shown."""
         return self.offers.wire is not None and self.offers.edge == undirected(target.pick)
 
     # Offers
@@ -280,15 +278,12 @@ class Offering(Interaction):
         return edit
 
     def is_crest_taken(self, pick: Pick) -> bool:
-        """Whether the last loop was a ridge or valley at a pick."""
         return undirected(pick) == self._crest_taken
 
     def forget_crest(self) -> None:
-        """Offer the ridge or valley again that was taken last: it may be gone."""
         self._crest_taken = None
 
     def cancel(self) -> None:
-        """Show no offers, and ask for none."""
         for offers in (self.edges, self.cuts):
             offers.wanted = False
             offers.clear()
@@ -296,7 +291,6 @@ class Offering(Interaction):
 
 
 def taken_loops(loops: tuple[Wire, ...], choice: int, how: How) -> tuple[Wire, ...]:
-    """Return the wires of an offered loop, those beside it first."""
     choice = min(choice, len(loops) - 1)
     wire = replace(taken(loops, choice, how.marks), mirror=how.mirror)
     return (*(each.anew(marks=how.marks, mirror=how.mirror) for each in loops[choice].beside), wire)

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 def paint(
     board: Board, wiring: Wiring, offering: Offering, now: Interaction, work: Work, undo: tuple[bool, bool]
 ) -> Picture:
-    """Return everything that is to be seen now. `undo` tells whether there is something to undo, and to redo."""
     network, options, target = board.network, board.options, now.target
     drag = now if isinstance(now, Dragging) else None
     line = now if isinstance(now, Lining) else None
@@ -104,14 +103,12 @@ def _wires(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -
 
 
 def _missing(board: Board) -> Iterator[tuple[Pick, Pick]]:
-    """Yield the ends of the requests that have no course, or not yet."""
     for own in board.network.requests:
         if isinstance(own, Way) and not board.courses.of(own).wires:
             yield own.start, own.end
 
 
 def _intent(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -> Intent:
-    """Return the effect of a click."""
     along, seed, target = board.options.along, board.network.seed, now.target
     if isinstance(now, Dragging):
         return Intent.MOVE

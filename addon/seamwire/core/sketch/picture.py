@@ -126,7 +126,6 @@ class Offered:
 
     @property
     def kind(self) -> LoopKind | None:
-        """The kind of the shown one."""
         return self.kinds[self.number] if self.number < len(self.kinds) else None
 
 
@@ -195,11 +194,9 @@ class Picture:
     front: bool = True
 
     def all(self, role: Role) -> tuple[Wire, ...]:
-        """Return the wires with a role."""
         return tuple(shown.wire for shown in self.wires if shown.role is role)
 
     def one(self, *roles: Role) -> Wire | None:
-        """Return the first wire with one of some roles."""
         return next((shown.wire for shown in self.wires if shown.role in roles), None)
 
     @property

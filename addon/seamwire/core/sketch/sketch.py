@@ -66,7 +66,6 @@ class Sketch(Board):
 
     @property
     def wires(self) -> tuple[Wire, ...]:
-        """The wires as they are shown now, oldest first."""
         return self.shown.wires
 
     def edges_to_mark(self) -> list[Edge]:
@@ -91,7 +90,6 @@ class Sketch(Board):
 
     @property
     def picture(self) -> Picture:
-        """Everything that is to be seen now."""
         return self._newest_picture()
 
     def _newest_picture(self) -> Picture:
@@ -122,17 +120,14 @@ class Sketch(Board):
     # Work
 
     def holds(self, kind: type[Kind]) -> Kind | None:
-        """Return the interaction if it is of a kind, otherwise None."""
         return self.interaction if isinstance(self.interaction, kind) else None
 
     @property
     def is_held(self) -> bool:
-        """Whether a button holds a seed or a line."""
         return self.interaction not in (self.wiring, self.offering)
 
     @property
     def waiting(self) -> int:
-        """The number of requests whose courses are not final."""
         return len(self.courses.unfinished)
 
     @property
@@ -271,7 +266,6 @@ class Sketch(Board):
 
     @property
     def target(self) -> Snap | None:
-        """The pick under the cursor."""
         return self.interaction.target
 
     def hover(self, snap: Snap | Pick | None, loop: bool = False, bend: bool = False) -> None:
@@ -388,7 +382,6 @@ class Sketch(Board):
         return self._do(lambda: self.offering.take(target)) and self._warned()
 
     def bend(self, snap: Snap | Pick) -> bool:
-        """Bend the last closed cut to a point."""
         target = Snap.of(snap)
         self.cancel()
         self._last_click = None
@@ -493,7 +486,6 @@ class Sketch(Board):
         return Edit(network.replacing({own.id: (way,)}), (begun,))
 
     def drop(self, wire: Wire) -> bool:
-        """Remove a kept wire."""
         self._calm()
         network = self.base
         own = network.find(wire.id) or next(
@@ -509,7 +501,6 @@ class Sketch(Board):
         return self._hold(lambda: Dragging(self, Snap.of(snap)))
 
     def _hold(self, begin: Callable[[], Interaction]) -> bool:
-        """Take hold of a new interaction, in place of wires and offers. Return whether it was not refused."""
         try:
             self.interaction = begin()
         except ValueError as error:
@@ -537,7 +528,6 @@ class Sketch(Board):
         return drag.is_solved
 
     def drag_end(self) -> bool:
-        """Leave the dragged seed where it is; one step for undo."""
         drag = self.holds(Dragging)
         if drag is None:
             return self.refuse("No seed is being moved")
@@ -574,7 +564,6 @@ class Sketch(Board):
         return True
 
     def line_end(self) -> bool:
-        """Keep the wires that follow the line; one step for undo."""
         line = self.holds(Lining)
         if line is None:
             return self.refuse("No line is being drawn")
@@ -626,7 +615,6 @@ class Sketch(Board):
         return self._do(stroke)
 
     def erase(self, stroke: Stroke) -> bool:
-        """Remove a stroke."""
         self._calm()
         rest = tuple(own for own in self.network.strokes if own.id != stroke.id)
         if len(rest) == len(self.network.strokes):

@@ -110,7 +110,6 @@ class Engines:
         self._told: int = 0
 
     def get(self, along: Along) -> LiveWire:
-        """Return the live wires of one way."""
         if along not in self._lives:
             self._lives[along] = self._make(along)
             if (self.metric, self.strengths[along], self.clamp) != ("feature", STRENGTHS[along], CLAMP_PERCENTILE):
@@ -212,7 +211,6 @@ class LiveMaker:
         self._first: seamwire_core.LiveWire | None = None
 
     def __call__(self, along: Along) -> LiveWire:
-        """Return live wires for one way of running."""
         if self._first is not None:
             return self._first.sibling(**_options(along))
         mesh = self._mesh
