@@ -77,6 +77,13 @@ def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     assert session.network.closing_point is None
 
 
+def test_a_chain_whose_first_wire_was_removed_cannot_be_closed() -> None:
+    session = corner().session
+    session.drop(session.wires[0])
+    assert session.network.closing_point is None
+    assert not session.close()
+
+
 def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
     session = Table(boxes=True).session
     session.click(0)
