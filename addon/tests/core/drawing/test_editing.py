@@ -77,9 +77,17 @@ def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     assert session.network.closing_point is None
 
 
+def test_what_goes_on_from_a_wire_goes_on_from_its_second_part() -> None:
+    session = corner().session
+    assert session.wires[1].heading == (2, 3)
+    insert(session, session.wires[0], 1)
+    assert [wire.heading for wire in session.wires] == [None, (0, 1), (2, 3)]
+
+
 def test_a_chain_whose_first_wire_was_removed_cannot_be_closed() -> None:
     session = corner().session
     session.drop(session.wires[0])
+    assert [own.goes_on for own in session.network.requests] == [None]
     assert session.network.closing_point is None
     assert not session.close()
 
