@@ -217,7 +217,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
-        self.session.offering.edges.stop_search()
+        self.session.offering.parts.stop()
         self._islands.close()
         for layer in self._layers:
             layer.close()
@@ -290,7 +290,7 @@ class ObjectView:
 
     def _follow_layers(self) -> None:
         session, options = self.session, self.options
-        self.crest_view.is_wanted = options.snap or session.offering.offers.wanted
+        self.crest_view.is_wanted = options.snap or session.offering.wanted
         source, strokes = self._source(), session.engines.strokes
         for key, layer in self._working_layers():
             failures.attempt(key, partial(layer.follow, options, source, strokes))

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from ..network.picks import is_same, undirected
 from ..network.wires import Wire
-from .offers import Offers
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,44 +28,24 @@ _MOST_KNOWN = 64
 """So many edges whose loops are remembered."""
 
 
-class LoopOffers(Offers):
-    """The loops that a click on the edge under the cursor may add. The library finds them, and their order."""
+class EdgeLoops:
+    """Finds what a click on an edge may add: loops, strips and borders of parts, in the order of the library.
 
-    SINGLE = "No other loop through this edge"
+    Attributes
+    ----------
+    with_parts
+        Whether all parts of the mesh were known to the last `find`.
+    """
 
     def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64], parts: PartSearch) -> None:
-        super().__init__()
         self._engines = engines
         self._stops = stops
         self._points = points
         self._parts = parts
-        self._snap: Snap | None = None
         self._metric: tuple[object, ...] = ()
         self._loops: dict[Edge, LiveLoop] = {}
-        self._with_parts = False
-        # The loop that was shown last, until no loops are asked for, and whether the artist asked for it in place of the first one.
-        self._shown: tuple[Wire | None, bool] = (None, False)
         self._taken: tuple[Pick | None, Wire | None] = (None, None)
-
-    def point_at(self, snap: Snap | None) -> None:
-        """Learn which edge crosses the picked one at the cursor, and which face is under it."""
-        before, self._snap = self._snap, snap
-        if before is not None and snap is not None and self.edge == undirected(snap.pick):
-            same = (before.crossing, before.triangle, before.inside) == (snap.crossing, snap.triangle, snap.inside)
-            self.final = self.final and same and self._with_parts == self._parts.is_complete
-
-    def wait(self) -> None:
-        self._parts.wait()
-        self.final = self.final and self._with_parts == self._parts.is_complete
-
-    def aim(self, pick: Pick | None) -> bool:
-        """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
-        if pick is None:
-            self._shown = (None, False)
-            self.stop_search()
-        elif self.edge != undirected(pick) and self.wire is not None:
-            self._shown = (self.wire, self._shown[1] or self.choice > 0)
-        return super().aim(pick)
+        self.with_parts = False
 
     def took(self, edge: Edge, wire: Wire) -> None:
         self._taken = undirected(edge), wire
@@ -77,53 +56,53 @@ class LoopOffers(Offers):
         last = network.find(wire) if pick == undirected(edge) else None
         return network.taken_through(edge) if last is None or last.through is None else last
 
-    def forget(self) -> None:
-        """Forget the parts if the seams of the mesh are others now."""
-        self._parts.renew()
-
-    def stop_search(self) -> None:
-        """Let the search for parts end: nobody asks for them any more."""
-        self._parts.stop()
-
-    def takes(self, pick: Pick) -> bool:
-        return isinstance(pick, tuple)
-
     def part_border(self, edge: Edge) -> set[Edge]:
         borders = [] if self._parts.finder is None else self._parts.finder.borders(edge)
         chain = borders[0].tolist() if borders else []
         return {undirected(pair) for pair in zip(chain, chain[1:] + chain[:1], strict=True)}
 
-    def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:
-        """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
+    def find(
+        self,
+        edge: Edge,
+        network: Drawn,
+        snap: Snap | None = None,
+        shown: tuple[Wire | None, bool] = (None, False),
+        kept: Wire | None = None,
+    ) -> tuple[tuple[Wire, ...], bool]:
+        """Return what a click on an edge may take, and whether that is final. Raise ValueError if the edge is not part of the surface.
 
-        A vertex has no offers. The wire of the network that such a click took, `kept` or else the newest one, comes first. Raises
-        ValueError where the edge is not part of the surface.
+        Parameters
+        ----------
+        snap
+            What is under the cursor, if that is the edge.
+        shown
+            The loop that was shown last, and whether the artist asked for it in place of the first one.
+        kept
+            The wire that such a click took, which comes first. If None, the newest one.
         """
-        self.final = True
-        if not isinstance(pick, tuple):
-            return ()
-        own = kept or self.taken_through(network, pick)
+        own = kept or self.taken_through(network, edge)
         if own is not None and own.offers:
-            return own.all_offers()
+            return own.all_offers(), True
         # Wires that were stored have lost their offers: they are those of a click made without them.
         if own is not None:
-            offers = self._offers(pick, network.without(own), None)
-            return (replace(own, offers=()), *others(own, offers)) if self.final else ()
-        snap = self._snap
-        return self._offers(pick, network, snap if snap and is_same(snap.pick, pick) else None)
+            offers, final = self._offers(edge, network.without(own), None, shown)
+            return (replace(own, offers=()), *others(own, offers)) if final else (), final
+        return self._offers(edge, network, snap if snap and is_same(snap.pick, edge) else None, shown)
 
-    def _offers(self, edge: Edge, network: Drawn, snap: Snap | None) -> tuple[Wire, ...]:
-        """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`."""
+    def _offers(
+        self, edge: Edge, network: Drawn, snap: Snap | None, before: tuple[Wire | None, bool]
+    ) -> tuple[tuple[Wire, ...], bool]:
+        """Return what leads through an edge, the likeliest first, and whether that is final."""
         self._parts.ready()  # begins the search again if it was stopped
-        self._with_parts = self._parts.is_complete
+        self.with_parts = self._parts.is_complete
         crossing = None if snap is None else snap.crossing
         loop = self._loop(edge, network)
         across = None if crossing is None or loop is None else self._loop(crossing, network)
-        self.final = loop is not None and self._parts.finder is not None and (across is None) == (crossing is None)
+        final = loop is not None and self._parts.finder is not None and (across is None) == (crossing is None)
         if loop is None or self._parts.finder is None or (across is None and snap is not None and snap.is_close_call):
-            return ()
+            return (), final
         last = next((own.kind for own in reversed(network.wires) if own.kind is not None), "CLOSED")
-        shown, chosen = self._shown
+        shown, chosen = before
         found = self._parts.finder.find(
             edge, loop.vertices, loop.corners,
             kept=self._stops.edges(network), plane=self._stops.plane(network),
@@ -135,7 +114,7 @@ class LoopOffers(Offers):
             close_call=snap is not None and snap.is_close_call,
             shown=() if shown is None else shown.vertices + shown.vertices[: shown.closed], chosen=chosen,
         )  # fmt: skip
-        return tuple(self._wire(offer, edge) for offer in found)
+        return tuple(self._wire(offer, edge) for offer in found), final
 
     def _loop(self, edge: Edge, network: Drawn) -> LiveLoop | None:
         """Return the closed loop through an edge, or None while it is computed.

@@ -13,7 +13,6 @@ from ..base.refused import Refused
 from ..network.picks import FacePoint, place_of
 from ..network.wires import Wire
 from ..solver.solver import for_live
-from .offers import Offers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -152,52 +151,44 @@ class CutMemory:
                 yield TakenCut(min(gaps, key=gaps.__getitem__), course, wires)
 
 
-class SurfaceLoops(Offers):
-    """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too."""
-
-    SINGLE = "No other closed cut here"
-    NONE = "The shape suggests no closed cut here"
+class SurfaceLoops:
+    """Finds the closed cuts through a point, or the cut that was taken last bent to it."""
 
     def __init__(self, engines: Engines, triangles: NDArray[np.int32]) -> None:
-        super().__init__()
         self._engines = engines
         self._triangles = triangles
         self._found: dict[int, tuple[tuple[Wire, ...], tuple[int, int]]] = {}
-        self._taken: Pick | None = None
         self._cuts: list[TakenCut] = []
-        self.bends = False
-        """Whether the offer is the cut that was taken last, bent to the pick."""
-        self.into_faces = False
-        """Whether what is taken is to be cut into the faces: else two cuts that go to the same edges are one."""
 
-    def takes(self, pick: Pick) -> bool:
-        return not isinstance(pick, tuple)
+    def find(
+        self, pick: Pick, network: Drawn, bends: bool = False, into_faces: bool = False
+    ) -> tuple[tuple[Wire, ...], bool]:
+        """Return the closed cuts through a pick, each as one wire to be shown, and whether they are final.
 
-    def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:
-        """Return the closed cuts through a pick, each as one wire to be shown; nothing, too, while they are computed.
+        Raise ValueError if the pick is not part of the surface, or there is no cut that can be bent to it.
 
-        Raises ValueError where the pick is not part of the surface, or there is no cut that can be bent to it.
+        Parameters
+        ----------
+        bends
+            Whether to find the cut that was taken last, bent to the pick.
+        into_faces
+            Whether what is taken is to be cut into the faces. Otherwise two cuts that go to the same edges are one.
         """
-        self.final = True
-        if not self.takes(pick):
-            return ()
         live = self._engines.cuts()
         begin = pick
-        if self.bends:
+        if bends:
             cut = self.bendable(network)
             if cut is None:
                 raise Refused("No closed cut to bend: add one first")
             begin = cut.through
             number = self._id_of(cut, live)
             if number is None:
-                self.final = False
-                return ()
+                return (), False
             found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), number)
             if found.final and not found.cuts:
                 raise Refused("No closed cut leads through both points")
         else:
             found = live.closed_wires(for_live(pick, "SURFACE"))
-        self.final = found.final
         self._found = {}
         shown: list[Wire] = []
         for each in found.cuts:
@@ -205,23 +196,12 @@ class SurfaceLoops(Offers):
             if len(pieces) < 2:
                 continue
             whole = _whole(pieces, each.separates)
-            if not any(self._alike(whole, other) for other in shown):
+            # On a coarse mesh, cuts apart from each other may go to the same edges.
+            edges = None if into_faces else set(whole.edges())
+            if not any(whole.like(other) or set(other.edges()) == edges for other in shown):
                 shown.append(whole)
                 self._found[whole.id] = pieces, each.id
-        return tuple(shown)
-
-    def _alike(self, one: Wire, other: Wire) -> bool:
-        # On a coarse mesh, cuts apart from each other may go to the same edges.
-        return one.like(other) or (not self.into_faces and set(one.edges()) == set(other.edges()))
-
-    def bend(self, bends: bool) -> bool:
-        """Offer the cut that was taken last, bent to the pick, or those through the pick again; return whether others vanish."""
-        if bends == self.bends:
-            return False
-        self.bends = bends
-        vanish = bool(self.offers)
-        self.clear()
-        return vanish
+        return tuple(shown), found.final
 
     def bendable(self, network: Drawn) -> TakenCut | None:
         """Return the last cut that the network still has unchanged, and that would be found again."""
@@ -259,32 +239,16 @@ class SurfaceLoops(Offers):
     def _metric(self) -> tuple[object, ...]:
         return self._engines.strengths["SURFACE"], self._engines.strokes
 
-    def aim(self, pick: Pick | None) -> bool:
-        """Request the offers for a pick, or stop. After a cut was added, the next offers need another pick."""
-        if pick != self._taken:
-            self._taken = None
-        return super().aim(None if self._taken is not None else pick)
-
     def pieces(self, offer: Wire) -> tuple[Wire, ...]:
         """Return the wires that an offer found last consists of: a closed chain with seeds where they meet."""
         return self._found[offer.id][0]
 
-    def take(self, pick: Pick, offer: Wire, wires: tuple[Wire, ...], before: TakenCut | None) -> None:
-        """Remember that an offer found last for a pick is kept now, as these wires; `before`: in place of a cut."""
-        through, course = (pick, offer.points) if before is None else (before.through, before.course)
-        self._cuts.append(TakenCut(through, course, wires, self._found[offer.id][1], self._metric))
-        self.was_taken(pick)
-
-    def take_from(
-        self, other: SurfaceLoops, pick: Pick, offer: Wire, wires: tuple[Wire, ...], before: TakenCut | None
+    def take(
+        self, found: SurfaceLoops, pick: Pick, offer: Wire, wires: tuple[Wire, ...], before: TakenCut | None
     ) -> None:
-        """Remember the same of an offer that others found."""
+        """Remember that an offer which was `found` last for a pick is kept now, as these wires. It may replace the cut `before`."""
         through, course = (pick, offer.points) if before is None else (before.through, before.course)
-        self._cuts.append(TakenCut(through, course, wires, other._found[offer.id][1], other._metric))
-
-    def was_taken(self, pick: Pick) -> None:
-        """Offer nothing until another pick: something was taken at this one."""
-        self._taken, self.wanted = pick, False
+        self._cuts.append(TakenCut(through, course, wires, found._found[offer.id][1], found._metric))
 
     def _pieces_of(self, cut: ClosedCut, pick: Pick) -> tuple[Wire, ...]:
         joints: list[Pick] = []

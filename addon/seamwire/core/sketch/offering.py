@@ -11,7 +11,8 @@ from ..base.refused import Refused
 from ..fields.crests import CREST_KINDS
 from ..network.network import Given, How, Snap, Sought
 from ..network.picks import FacePoint, pick_name, undirected
-from ..offers.edge_loops import LoopOffers, taken
+from ..network.wires import Wire
+from ..offers.edge_loops import EdgeLoops, taken
 from ..offers.part_search import PartSearch
 from ..offers.surface_loops import SurfaceLoops
 from .courses import Course, Search, patiently
@@ -22,12 +23,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..fields.crests import Crests
+    from ..network.network import Network
     from ..network.picks import Edge, Pick
-    from ..network.wires import Wire
-    from ..offers.offers import Offers
     from ..offers.surface_loops import TakenCut
     from ..solver.solver import LiveWire
     from .board import Board
+
+
+NO_CUT = "The shape suggests no closed cut here"
 
 
 class Offering(Interaction):
@@ -36,7 +39,15 @@ class Offering(Interaction):
     Attributes
     ----------
     edges, cuts
-        The offers along edges, and across the surface.
+        What finds loops along edges, and closed cuts across the surface.
+    wanted
+        Whether offers are asked for.
+    offers, choice
+        The offers, no two alike, the likeliest first, and the one that is shown.
+    edge
+        The pick that they are for, with the smaller vertex of an edge first.
+    bends
+        Whether the offer is the cut that was taken last, bent to the cursor.
     """
 
     def __init__(self, board: Board) -> None:
@@ -44,107 +55,168 @@ class Offering(Interaction):
         points, triangles = board.points, board.triangles
         own, live = self._board, partial(board.engines.get, "EDGES")
         self.parts = PartSearch(live, len(triangles), lambda: own.seams, lambda *asked: own.find_parts(*asked))
-        self.edges = LoopOffers(board.engines, board.stops, points, self.parts)
+        self.edges = EdgeLoops(board.engines, board.stops, points, self.parts)
         self.cuts = SurfaceLoops(board.engines, triangles)
+        self.wanted = self.bends = False
+        self.clear()
+        self._shown: tuple[Wire | None, bool] = (None, False)
         self._crests: Crests | None = None
         self._crests_first = False
+        # Nothing is offered where something was taken, until offers are asked for at another place.
+        self._taken: Pick | None = None
         self._crest_taken: Pick | None = None
-        self._seen: Wire | None = None
-        self._choice = 0
+
+    def clear(self) -> None:
+        """Show no offers. What is asked for is asked for still."""
+        self.edge: Pick | None = None
+        self.offers: tuple[Wire, ...] = ()
+        self.choice = 0
+        self._final = True
 
     @property
-    def offers(self) -> Offers:
-        return self.edges if self._board.options.along == "EDGES" else self.cuts
+    def wire(self) -> Wire | None:
+        """The offer that is shown."""
+        return self.offers[self.choice] if self.offers else None
 
     @property
     def is_final(self) -> bool:
-        return self.edges.final and self.cuts.final
+        return self._final
 
     @property
     def is_idle(self) -> bool:
         """Whether no offers are asked for, and no click has just taken a ridge."""
-        return not (self.edges.wanted or self.cuts.wanted or self.cuts.bends) and self._crest_taken is None
-
-    @property
-    def bends(self) -> bool:
-        """Whether a click would take the last closed cut, bent."""
-        return self.cuts.bends and self.cuts.wanted
+        return not (self.wanted or self.bends) and self._crest_taken is None
 
     def lives(self) -> Sequence[LiveWire]:
         board = self._board
         return [board.engines.cuts() if board.options.along == "SURFACE" else board.engines.get("EDGES")]
 
     def takes(self, target: Snap) -> bool:
-        return self.offers.wire is not None and self.offers.edge == undirected(target.pick)
+        """Whether a click there would take the offer that is shown."""
+        return self.wire is not None and self.edge == undirected(target.pick)
 
     # Offers
 
     def hover(self, target: Snap | None, loop: bool, bend: bool) -> bool:
         """Ask for the loops at a target, for the last closed cut bent to it, or for none. Return whether others vanish."""
-        self.target = target
+        self._point_at(target)
         if target is None or undirected(target.pick) != self._crest_taken:
             self._crest_taken = None
-        vanish = self.cuts.bend(bend)
-        asked = target.pick if (loop or bend) and target is not None and self.offers.takes(target.pick) else None
-        if asked is not None and undirected(asked) == self._crest_taken:
-            asked = None
-        self.edges.point_at(target)
-        vanish = self.offers.aim(asked) or vanish
+        vanish = self._bend(bend)
+        vanish = self._ask(target.pick if (loop or bend) and target is not None else None) or vanish
         return self._show() or vanish
+
+    def _point_at(self, target: Snap | None) -> None:
+        before, self.target = self.target, target
+        if before is None or target is None or self.edge != undirected(target.pick) or not isinstance(self.edge, tuple):
+            return
+        same = (before.crossing, before.triangle, before.inside) == (target.crossing, target.triangle, target.inside)
+        self._final = self._final and same and self.edges.with_parts == self.parts.is_complete
+
+    def _bend(self, bends: bool) -> bool:
+        vanish = bends != self.bends and bool(self.offers)
+        if bends != self.bends:
+            self.bends = bends
+            self.clear()
+        return vanish
+
+    def _ask(self, pick: Pick | None) -> bool:
+        """Ask for the offers at a pick, or for none. Return whether others vanish."""
+        if pick is not None and (not self._may_lead_through(pick) or undirected(pick) == self._crest_taken):
+            pick = None
+        if pick is None:
+            self._shown = (None, False)
+            self.parts.stop()
+        elif self.edge != undirected(pick) and self.wire is not None:
+            self._shown = (self.wire, self._shown[1] or self.choice > 0)
+        if pick != self._taken:
+            self._taken = None
+        self.wanted = pick is not None and self._taken is None
+        if self.edge is None or (self.wanted and self.edge == undirected(pick)):
+            return False
+        vanish = bool(self.offers)
+        self.clear()
+        return vanish
+
+    def _may_lead_through(self, pick: Pick) -> bool:
+        return isinstance(pick, tuple) == (self._board.options.along == "EDGES")
 
     def poll(self) -> bool:
         before = self.reason
         return self._show() or before != self.reason
 
+    def wait(self) -> None:
+        """Wait for what the offers need beside the library."""
+        self.parts.wait()
+        if isinstance(self.edge, tuple):
+            self._final = self._final and self.edges.with_parts == self.parts.is_complete
+
     def _show(self) -> bool:
         """Show the offers at the cursor as soon as they are computed. Return whether they are new."""
-        offers, target = self.offers, self.target
-        for own in (self.edges, self.cuts):
-            own.stop_waiting()  # compute no offers that nobody asks for any more
-        if target is None or not offers.unfinished:
-            self.reason = "" if not offers.missing else self.reason
+        target = self.target
+        if target is None or not self.wanted or (self.offers and self._final):
+            self._final = self._final or not self.wanted  # compute no offers that nobody asks for any more
+            self.reason = self.reason if self.wanted and not self.offers else ""
             return False
-        changed = offers.show(target.pick, self.find(target.pick))
-        if not self.reason and offers.NONE and offers.missing and offers.final and not self.cuts.bends:
-            self.reason = offers.NONE
-        return changed
+        found, self._final = self.find(target.pick)
+        before, choice = self.offers, self._choice_among(target.pick, found)
+        self.edge, self.offers, self.choice = undirected(target.pick), found, choice
+        if not self.reason and not found and self._final and not self.bends and not isinstance(target.pick, tuple):
+            self.reason = NO_CUT
+        return len(before) != len(found) or not all(map(Wire.like, before, found))
+
+    def _choice_among(self, pick: Pick, offers: tuple[Wire, ...]) -> int:
+        """Return which of the offers for a pick is the one that was chosen, wherever it is by now. Until one was, the first."""
+        if self.wire is None or self.edge != undirected(pick) or self.choice == 0:
+            return 0
+        alike = (place for place, offer in enumerate(offers) if offer.like(self.wire))
+        return next(alike, min(self.choice, max(len(offers) - 1, 0)))
 
     def advance(self) -> None:
         """Show the next offer. Raise Refused if there is none."""
-        why = self.offers.advance()
-        if why:
-            raise Refused(why)
+        if not self.offers:
+            raise Refused("No loop found yet")
+        if len(self.offers) == 1:
+            raise Refused("No other loop through this edge" if self._is_along_edges else "No other closed cut here")
+        self.choice = (self.choice + 1) % len(self.offers)
+
+    @property
+    def _is_along_edges(self) -> bool:
+        return self._board.options.along == "EDGES"
 
     def use_crests(self, crests: Crests | None, first: bool) -> bool:
         """Offer ridges and valleys, as the first or as the last offer. Return whether other offers are shown."""
         if crests is self._crests and first == self._crests_first:
             return False
         self._crests, self._crests_first = crests, first
-        if not self.offers.wanted:
+        if not self.wanted:
             return False
-        self.offers.final = False
+        self._final = False
         return self.poll()
 
-    def find(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
-        """Return what a click on a pick may take, or nothing while it is computed. The wire that such a click took and `kept` comes first.
+    def find(self, pick: Pick, kept: Wire | None = None) -> tuple[tuple[Wire, ...], bool]:
+        """Return what a click on a pick may take, and whether that is final. The wire that such a click took and `kept` comes first.
 
         An edge has the offers along edges, even if wires run across the surface.
         """
         self.reason = ""
-        offers = self.edges if isinstance(pick, tuple) else self.cuts
-        self.cuts.into_faces = self._board.options.into_faces
+        board = self._board
         try:
-            return self._with_crest(pick, offers.find(pick, self._board.drawn, kept), kept)
+            if isinstance(pick, tuple):
+                found, final = self.edges.find(pick, board.drawn, self.target, self._shown, kept)
+            else:
+                found, final = self.cuts.find(pick, board.drawn, self.bends, board.options.into_faces)
+            return self._with_crest(pick, found, final, kept), final
         except ValueError as error:
             self.reason = str(error)
-            return ()
+            return (), True
 
-    def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
+    def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], final: bool, kept: Wire | None) -> tuple[Wire, ...]:
         """Return offers with the ridge or valley at a pick: first if these are shown, otherwise last."""
-        if self.cuts.bends and not isinstance(pick, tuple):
+        if self.bends and not isinstance(pick, tuple):
             return offers
         # A click must not take the first known loop while others are still computed.
-        ready = offers or (self.edges if isinstance(pick, tuple) else self.cuts).final or self._crests_first
+        ready = offers or final or self._crests_first
         crest = self._crests.offer(pick) if self._crests is not None and kept is None and ready else None
         if crest is None or undirected(pick) == self._crest_taken:
             return offers
@@ -154,44 +226,39 @@ class Offering(Interaction):
 
     def check(self, target: Snap) -> None:
         """Raise Refused if no loop can lead through a target."""
-        if not self.offers.takes(target.pick):
-            along_edges = self._board.options.along == "EDGES"
-            what = "Loops need an edge" if along_edges else "Closed cuts need a vertex or a point of a face"
+        if not self._may_lead_through(target.pick):
+            what = "Loops need an edge" if self._is_along_edges else "Closed cuts need a vertex or a point of a face"
             raise Refused(f"{what}, not {pick_name(target.pick)}")
 
     def take(self, target: Snap) -> Edit | None:
         """Take the offer that is shown at a target, or the first one. Return None if it is taken already."""
         self.check(target)
-        self.cuts.bend(False)
-        self.edges.point_at(target)
-        self._seen, self._choice = None, 0
-        if self.edges.edge == undirected(target.pick) and self.edges.wire is not None:
-            self._seen, self._choice = self.edges.wire, self.edges.choice
-            if self._seen.kind not in CREST_KINDS:
-                self._choice -= self.edges.offers[0].kind in CREST_KINDS
-        if isinstance(target.pick, tuple):
-            return self._take_loop(target, target.pick)
-        return self._take_cut(target)
+        self._bend(False)
+        self._point_at(target)
+        return self._take_loop(target, target.pick) if isinstance(target.pick, tuple) else self._take_cut(target)
 
     def _take_loop(self, target: Snap, edge: Edge) -> Edit | None:
         board = self._board
-        if self._seen is not None and self._seen.kind in CREST_KINDS:
+        seen, choice = (self.wire, self.choice) if self.takes(target) else (None, 0)
+        if seen is not None and seen.kind in CREST_KINDS:
             return self._take_crest(edge)
+        if seen is not None:
+            choice -= self.offers[0].kind in CREST_KINDS
         own = self.edges.taken_through(board.drawn, edge)
         if own is not None and own.marks == board.options.marking:
             # The first press of a double click took it already.
-            return self.next_offer(own, self._choice) if self._choice else None
+            return self.next_offer(own, choice) if choice else None
         # It is read first: offers that are missing when all work is done stay missing.
         progress = board.engines.get("EDGES").progress()
-        offers = self.find(edge)
+        offers, final = self.find(edge)
         if not offers:
-            if progress < 1.0 or not self.edges.final:
-                return self._later(target, LoopSearch(board, self, target, self._choice))
+            if progress < 1.0 or not final:
+                return self._later(target, LoopSearch(board, self, target, choice))
             raise Refused(self.reason or f"No edge continues at {pick_name(edge)}")
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
-        if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
+        if not loops or (seen is None and offers[0].kind in CREST_KINDS):
             return self._take_crest(edge)
-        wires = taken_loops(loops, self._choice, board.how("EDGES"))
+        wires = taken_loops(loops, choice, board.how("EDGES"))
         self.edges.took(edge, wires[-1])
         return Edit(board.base.adding(*map(Given.of, wires)))
 
@@ -203,17 +270,21 @@ class Offering(Interaction):
         return Edit(board.base.adding(request), (Begun(request, Course(), search),))
 
     def _take_cut(self, target: Snap) -> Edit:
-        offers = self.find(target.pick)
-        offer = offers[self.cuts.choice_among(target.pick, offers)] if offers else None
+        offers, final = self.find(target.pick)
+        offer = offers[self._choice_among(target.pick, offers)] if offers else None
         if offer is not None and offer.kind in CREST_KINDS:
             return self._take_crest(target.pick)
-        if not self.cuts.final:
+        if not final:
             return self._later(target, CutSearch(self._board, target.pick, self.cuts, None, seen=offer))
         if offer is None:
-            raise Refused(self.reason or self.cuts.NONE)
-        wires = cut_wires(self.cuts.pieces(offer), self._board.how("SURFACE"))
-        self.cuts.take(target.pick, offer, wires, None)
-        return Edit(self._board.base.adding(*map(Given.of, wires)))
+            raise Refused(self.reason or NO_CUT)
+        return self._with_cut(self._board.base, target.pick, offer, self._board.how("SURFACE"), None)
+
+    def _with_cut(self, network: Network, pick: Pick, offer: Wire, how: How, before: TakenCut | None) -> Edit:
+        wires = cut_wires(self.cuts.pieces(offer), how)
+        self.cuts.take(self.cuts, pick, offer, wires, before)
+        self._taken, self.wanted = pick, False
+        return Edit(network.adding(*map(Given.of, wires)))
 
     def bend_to(self, target: Snap) -> Edit:
         """Bend the last closed cut to a target: the shortest one through its first point and the target that lies around the same.
@@ -221,23 +292,20 @@ class Offering(Interaction):
         The next bend moves the second point.
         """
         board = self._board
-        if board.options.along == "EDGES" or not self.cuts.takes(target.pick):
+        if self._is_along_edges or isinstance(target.pick, tuple):
             raise Refused(f"Closed cuts bend to places on the surface, not to {pick_name(target.pick)}")
         before = self.cuts.bendable(board.drawn)
         if before is None:
             raise Refused("No closed cut to bend: add one first")
-        self.cuts.bend(True)
-        offers = self.find(target.pick)
+        self._bend(True)
+        offers, final = self.find(target.pick)
         how = replace(board.how("SURFACE"), marks=before.wires[0].marks, mirror=before.wires[0].mirror)
         how = replace(how, finish=before.wires[0].finish)
-        ids = [wire.id for wire in before.wires]
-        rest = board.base.without(*ids)
-        if self.cuts.final:
-            if not offers:
-                raise Refused(self.reason or self.cuts.NONE)
-            wires = cut_wires(self.cuts.pieces(offers[0]), how)
-            self.cuts.take(target.pick, offers[0], wires, before)
-            return Edit(rest.adding(*map(Given.of, wires)))
+        rest = board.base.without(*(wire.id for wire in before.wires))
+        if final and not offers:
+            raise Refused(self.reason or NO_CUT)
+        if final:
+            return self._with_cut(rest, target.pick, offers[0], how, before)
         request = Sought(along="SURFACE", start=target.pick, end=target.pick, closed=True, what="loop")
         search = CutSearch(board, target.pick, self.cuts, before, how)
         return Edit(rest.adding(request), (Begun(request, Course(before.wires), search),))
@@ -247,17 +315,17 @@ class Offering(Interaction):
         assert own.through is not None
         network = self._board.base.loosened(own.id)
         if not own.offers:
-            offers = self.find(own.through, own)[1:]
-            if not self.edges.final:
+            offers, final = self.find(own.through, own)
+            if not final:
                 request = Sought(along="EDGES", start=own.start, end=own.end, closed=own.closed, id=own.id, what="loop")
                 search = LoopSearch(self._board, self, Snap(own.through), steps, own)
                 return Edit(
                     network.replacing({own.id: (request,)}),
                     (Begun(request, Course((own,)), search),),
                 )
-            if not offers:
+            if not offers[1:]:
                 raise Refused(self.reason or "No other loop through this edge")
-            own = replace(own, offers=offers)
+            own = replace(own, offers=offers[1:])
         return Edit(network.replacing({own.id: (Given.of(own.next_offer(steps)),)}))
 
     def _take_crest(self, pick: Pick) -> Edit:
@@ -272,8 +340,7 @@ class Offering(Interaction):
         line = Lining(board, Snap(begin), apart=True)
         line.draw(points, triangles, None)
         edit = line.keep()
-        self.cuts.was_taken(pick)
-        self.edges.wanted = False
+        self._taken, self.wanted = pick, False
         self._crest_taken = undirected(pick)
         return edit
 
@@ -284,10 +351,8 @@ class Offering(Interaction):
         self._crest_taken = None
 
     def cancel(self) -> None:
-        for offers in (self.edges, self.cuts):
-            offers.wanted = False
-            offers.clear()
-        self.cuts.bend(False)
+        self.wanted = self.bends = False
+        self.clear()
 
 
 def taken_loops(loops: tuple[Wire, ...], choice: int, how: How) -> tuple[Wire, ...]:
@@ -312,8 +377,7 @@ class LoopSearch(Search):
         self._board, self._offering = board, offering
         self._target, self._choice, self._kept = target, choice, kept
         self._live = engines.get("EDGES")
-        self._offers = LoopOffers(engines, board.stops, board.points, offering.parts)
-        self._offers.point_at(target)
+        self._loops = EdgeLoops(engines, board.stops, board.points, offering.parts)
         self._how = board.how("EDGES")
         self._waits = 0
 
@@ -323,8 +387,8 @@ class LoopSearch(Search):
     def __next__(self) -> Course:
         edge, kept = self._target.pick, self._kept
         progress = self._live.progress()
-        offers = self._offers.find(edge, self._board.drawn, kept)
-        if not offers and (progress < 1.0 or not self._offers.final):
+        offers, final = self._loops.find(edge, self._board.drawn, self._target, kept=kept)
+        if not offers and (progress < 1.0 or not final):
             self._waits = patiently(self._live, progress < 1.0, self._waits)
             return Course(() if kept is None else (kept,))
         if kept is not None:
@@ -354,10 +418,9 @@ class CutSearch(Search):
         self._board, self._pick, self._cuts, self._before = board, pick, cuts, before
         self._live = engines.cuts()
         self._own = SurfaceLoops(engines, board.triangles)
-        self._own.into_faces = board.options.into_faces
+        self._into_faces = board.options.into_faces
         if before is not None:
             self._own.recall((before,))
-            self._own.bend(True)
         self._how, self._seen = how or board.how("SURFACE"), seen
         self._drawn = board.drawn
         self._waits = 0
@@ -367,13 +430,13 @@ class CutSearch(Search):
 
     def __next__(self) -> Course:
         progress = self._live.progress()
-        offers = self._own.find(self._pick, self._drawn)
-        if not self._own.final:
+        offers, final = self._own.find(self._pick, self._drawn, self._before is not None, self._into_faces)
+        if not final:
             self._waits = patiently(self._live, progress < 1.0, self._waits)
             return Course(() if self._before is None else self._before.wires)
         if not offers:
-            raise Refused(self._own.NONE)
+            raise Refused(NO_CUT)
         offer = next((each for each in offers if self._seen is not None and each.like(self._seen)), offers[0])
         wires = cut_wires(self._own.pieces(offer), self._how)
-        self._cuts.take_from(self._own, self._pick, offer, wires, self._before)
+        self._cuts.take(self._own, self._pick, offer, wires, self._before)
         return Course(wires, final=True)

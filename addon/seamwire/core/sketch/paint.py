@@ -52,7 +52,7 @@ def paint(
         target=target,
         seed=None if seed is None else board.seed,
         choice=Choice(wiring.number, 1 + len(wiring.others), wiring.is_straight),
-        offered=Offered(offering.offers.kinds, offering.offers.choice, offering.bends)
+        offered=Offered(tuple(offer.kind for offer in offering.offers if offer.kind), offering.choice, offering.bends)
         if now is offering
         else Offered(),
         intent=_intent(board, wiring, offering, now),
@@ -97,7 +97,7 @@ def _wires(board: Board, wiring: Wiring, offering: Offering, now: Interaction) -
             yield live(wiring.active, role, options.finish)
         if wiring.extended is not None:
             yield live(wiring.extended, Role.EXTENSION, DEFAULT_FINISH)
-    offer = offering.offers.wire if now is offering else None
+    offer = offering.wire if now is offering else None
     for wire in () if offer is None else (offer, *offer.beside):
         yield live(wire, Role.OFFER, options.finish)
 
@@ -116,7 +116,7 @@ def _intent(board: Board, wiring: Wiring, offering: Offering, now: Interaction) 
         return Intent.DRAW
     if wiring.extended is not None:
         return Intent.RUN
-    if now is offering and offering.offers.wire is not None:
+    if now is offering and offering.wire is not None:
         return Intent.LOOP
     if target is None or (along == "SURFACE" and isinstance(target.pick, tuple)):
         return Intent.NOTHING

@@ -182,7 +182,7 @@ class Sketch(Board):
                     live.wait()
                 except ValueError as error:  # what it is to compute cannot be computed
                     self.refuse(str(error))
-            self.offering.edges.wait()
+            self.offering.wait()
             self.poll()
             if not self.computing:
                 return
@@ -251,7 +251,7 @@ class Sketch(Board):
         """Let the interactions follow a new network, with the candidate that stays the active one."""
         self.wiring.chosen = chosen
         self.wiring.runs = False
-        self.offering.offers.clear()
+        self.offering.clear()
         self.reason = ""
         self._look_again()
 
@@ -444,7 +444,7 @@ class Sketch(Board):
 
     def _calm(self) -> None:
         """Drop what is held or previewed, and stop looking for loops."""
-        self.offering.edges.stop_search()
+        self.offering.parts.stop()
         self._last_click = None
         self.stop_preview()
         self.cancel()
@@ -507,7 +507,7 @@ class Sketch(Board):
             return self.refuse(str(error))
         self._read_progress()
         self.wiring.clear()
-        self.offering.offers.clear()
+        self.offering.clear()
         self.reason = ""
         self.revision += 1
         return True
@@ -652,7 +652,7 @@ class Sketch(Board):
         if self.options.metric != self.engines.metric:
             self.wiring.forget()
         self.engines.use(self.options.metric, self.options.strengths, self.options.clamp)
-        self.offering.offers.clear()
+        self.offering.clear()
         self._look_again()
 
     def _switch(self) -> bool:
@@ -716,7 +716,7 @@ class Sketch(Board):
         known = tuple(wire if wire.images is not None else self.images.completed(wire, among) for wire in own.wires)
         self.go_to(Network(linked(known), strokes=own.strokes))
         self.new_report = ""
-        self.offering.edges.forget()
+        self.offering.parts.renew()
         self._settle()
 
     def _take_back_click(self, edge: Pick) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from real_sessions import session_on
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.picks import FacePoint, Pick
-from seamwire.core.offers.surface_loops import SurfaceLoops
+from seamwire.core.sketch.offering import NO_CUT
 from seamwire.core.sketch.picture import Role
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options
@@ -186,15 +186,15 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
         session.use_crests(sheet.crests, False)
         session.poll()
     assert session.picture.one(Role.OFFER) is None
-    assert session.reason == SurfaceLoops.NONE
+    assert session.reason == NO_CUT
 
 
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
-    assert not session.offering.offers.wanted
+    assert not session.offering.wanted
     session.hover(sheet.pick(), loop=True)
     session.wait()
-    assert session.offering.offers.wanted
+    assert session.offering.wanted
     assert "RIDGE" not in session.picture.offered.kinds
     before = session.revision
     session.use_crests(sheet.crests, True)
@@ -203,7 +203,7 @@ def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session.use_crests(None, True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(sheet.pick())
-    assert not session.offering.offers.wanted
+    assert not session.offering.wanted
 
 
 def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(sheet: Sheet) -> None:

@@ -68,7 +68,7 @@ class Alt:
         """Point at a place and return the vertices of the first two offers."""
         self.session.hover(self.snap(x, y), loop=True)
         self.session.wait()
-        return [set(offer.vertices) for offer in self.session.offering.offers.offers[:2]]
+        return [set(offer.vertices) for offer in self.session.offering.offers[:2]]
 
 
 def ring(number: int) -> set[int]:
@@ -128,7 +128,7 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
     alt.over(0.013, 0.0)
 
     def is_row() -> bool:
-        rows = {vertex // 81 for vertex in alt.session.offering.offers.wire.vertices}
+        rows = {vertex // 81 for vertex in alt.session.offering.wire.vertices}
         return len(rows) == 1
 
     began = is_row()

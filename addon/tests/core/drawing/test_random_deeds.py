@@ -186,7 +186,7 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
-        offers = session.offering.offers.offers
+        offers = session.offering.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
         assert (session.picture.intent is Intent.MOVE) == (session.holds(Dragging) is not None)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from real_sessions import caps, circles, halves, quads_between_rings, session_on
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, FacePoint
-from seamwire.core.offers.surface_loops import SurfaceLoops
+from seamwire.core.sketch.offering import NO_CUT
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.options import Options
@@ -90,7 +90,7 @@ def shows(session: Sketch, vertex: int, **how: bool) -> bool:
 def test_from_a_tip_nothing_is_suggested_and_it_says_so_until_it_is_not_asked_for_any_more(session: Sketch) -> None:
     tip = AROUND * ROWS
     assert not shows(session, tip, loop=True)
-    assert session.reason == SurfaceLoops.NONE
+    assert session.reason == NO_CUT
     revision = session.revision
     assert not shows(session, tip, loop=True)
     assert session.revision == revision, "nothing new to be seen"
@@ -100,7 +100,7 @@ def test_from_a_tip_nothing_is_suggested_and_it_says_so_until_it_is_not_asked_fo
     session.hover(tip)
     assert session.reason == ""
     assert not session.loop(tip)
-    assert session.reason == SurfaceLoops.NONE
+    assert session.reason == NO_CUT
 
 
 def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session: Sketch) -> None:

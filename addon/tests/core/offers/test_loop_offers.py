@@ -10,17 +10,22 @@ import numpy as np
 import pytest
 from fake_live import FakeLive, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.network.drawn import Drawn
-from seamwire.core.network.network import Snap
-from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_search
-from seamwire.core.offers.edge_loops import LoopOffers
+from seamwire.core.offers.edge_loops import EdgeLoops
 from seamwire.core.offers.part_search import PartSearch
-from table import POINTS, SIZE, Table, symmetry
+from seamwire.core.sketch.sketch import Sketch
+from table import SIZE, Table
 
 
-def loops(borders: PartSearch) -> LoopOffers:
-    return LoopOffers(Table().session.engines, Stops([], symmetry()), POINTS, borders)
+def sketch(parts: PartSearch) -> Sketch:
+    own = Table().session
+    own.offering.parts = parts
+    own.offering.edges = EdgeLoops(own.engines, own.stops, own.points, parts)
+    return own
+
+
+def kinds(own: Sketch) -> list[str | None]:
+    return [offer.kind for offer in own.offering.offers]
 
 
 def halves(go_on: threading.Event | None = None) -> PartSearch:
@@ -36,54 +41,49 @@ def halves(go_on: threading.Event | None = None) -> PartSearch:
 
 def test_borders_of_parts_are_offered_last() -> None:
     edge = (2, 2 + SIZE)
-    without = loops(PartSearch(lambda: FakeLive(SIZE), 50)).find(edge, Drawn())
-    offers = loops(halves())
-    found = offers.find(edge, Drawn())
-    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
+    without, own = sketch(PartSearch(lambda: FakeLive(SIZE), 50)), sketch(halves())
+    for each in (without, own):
+        each.hover(edge, loop=True)
+    assert kinds(own) == [*kinds(without), "FLAT", "FLAT"]
     rows = range(SIZE)
     sides = {(x, y) for x in range(3) for y in rows if x in {0, 2} or y in {0, SIZE - 1}}
-    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-2].vertices} == sides, "the shorter one first"
-    assert found[-2].closed
-    assert set(found[-2].edges()) == offers.part_border(edge[::-1])
+    border = own.offering.offers[-2]
+    assert {(vertex % SIZE, vertex // SIZE) for vertex in border.vertices} == sides, "the shorter one first"
+    assert border.closed
+    assert set(border.edges()) == own.offering.edges.part_border(edge[::-1])
 
 
-def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_loops_do_not_wait_for_parts_and_a_motion_of_the_mouse_shows_parts_that_are_known_since(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(part_search, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
-    parts = halves(go_on)
-    offers = loops(parts)
-    offers.point_at(Snap(edge))
-    offers.aim(edge)
-    while not offers.find(edge, Drawn()):
-        pass
-    kinds = [offer.kind for offer in offers.find(edge, Drawn())]
-    assert "FLAT" not in kinds
-    assert offers.final
-    offers.show(edge, offers.find(edge, Drawn()))
-    offers.point_at(Snap(edge))
-    assert offers.final
+    own = sketch(halves(go_on))
+    own.hover(edge, loop=True)
+    while not own.offering.offers:
+        own.poll()
+    before = kinds(own)
+    assert "FLAT" not in before
+    assert own.offering.is_final
+    own.hover(edge, loop=True)
+    assert own.offering.is_final
     go_on.set()
-    offers.wait()
-    assert not offers.final, "the parts are known since"
-    assert [offer.kind for offer in offers.find(edge, Drawn())] == [*kinds, "FLAT", "FLAT"]
-    assert offers.final
+    own.offering.parts.wait()
+    assert own.offering.is_final
+    own.hover(edge, loop=True)
+    assert kinds(own) == [*before, "FLAT", "FLAT"]
 
 
-def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_who_waits_for_the_offers_gets_the_parts_too(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(part_search, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
-    parts = halves(go_on)
-    offers = loops(parts)
-    offers.point_at(Snap(edge))
-    offers.aim(edge)
-    while not (found := offers.find(edge, Drawn())):
-        pass
-    offers.show(edge, found)
+    own = sketch(halves(go_on))
+    own.hover(edge, loop=True)
+    while not own.offering.offers:
+        own.poll()
     go_on.set()
-    parts.wait()
-    assert offers.final
-    offers.point_at(Snap(edge))
-    assert not offers.final
+    own.wait()
+    assert kinds(own)[-2:] == ["FLAT", "FLAT"]
 
 
 def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -101,17 +101,16 @@ def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pyt
 
     triangles = grid_triangles(SIZE)
     parts = PartSearch(lambda: FakeLive(SIZE), len(triangles), find_parts=find)
-    offers = loops(parts)
-    offers.aim(edge)
-    while not offers.find(edge, Drawn()):
-        pass
-    offers.aim(None)
+    own = sketch(parts)
+    own.hover(edge, loop=True)
+    while not own.offering.offers:
+        own.poll()
+    own.hover(edge)
     assert ended.wait(10.0)
-    offers.wait()
     assert not parts.is_complete
-    offers.aim(edge)
-    assert offers.find(edge, Drawn()), "the loops are known"
-    offers.wait()
+    own.hover(edge, loop=True)
+    assert own.offering.offers, "the loops are known"
+    own.wait()
     assert len(searches) == 2
     assert parts.is_complete
-    assert "FLAT" in [offer.kind for offer in offers.find(edge, Drawn())]
+    assert "FLAT" in kinds(own)
