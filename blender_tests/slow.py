@@ -13,7 +13,7 @@ from seamwire.core.sketch.wiring import Wiring
 
 if TYPE_CHECKING:
     import pytest
-    from seamwire.core.network.network import Network, Request
+    from seamwire.core.network.network import Request
     from seamwire.core.sketch.interaction import Edit
 
 
@@ -22,7 +22,7 @@ class Slow:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.is_slow = False
-        done, keep, poll, wait = Wiring.is_done.fget, Dragging.keep, Courses.poll, Sketch.wait
+        done, keep, step, wait = Wiring.is_done.fget, Dragging.keep, Courses.step, Sketch.wait
 
         def slow_keep(drag: Dragging) -> Edit | None:
             edit = keep(drag)
@@ -30,8 +30,8 @@ class Slow:
                 return edit
             return edit._replace(begun=tuple(one._replace(course=Course(one.course.wires)) for one in edit.begun))
 
-        def slow_poll(courses: Courses, network: Network) -> tuple[list[Request], bool]:
-            return ([], False) if self.is_slow else poll(courses, network)
+        def slow_step(courses: Courses) -> tuple[Request, bool]:
+            return (courses.unfinished[0], False) if self.is_slow else step(courses)
 
         def waited(sketch: Sketch) -> None:
             self.is_slow = False
@@ -39,6 +39,6 @@ class Slow:
 
         monkeypatch.setattr(Wiring, "is_done", property(lambda wiring: not self.is_slow and done(wiring)))
         monkeypatch.setattr(Dragging, "keep", slow_keep)
-        monkeypatch.setattr(Courses, "poll", slow_poll)
+        monkeypatch.setattr(Courses, "step", slow_step)
         monkeypatch.setattr(Sketch, "wait", waited)
         monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)

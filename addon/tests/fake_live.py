@@ -122,7 +122,7 @@ class FakeLive:
     `islands` are reached by no wire. Forks begin as `fork_ready` says (None: as this is); a new metric makes it ready as
     `metric_ready` says, and until it is the wires are `stale` ones. Loops go straight on at their corners, as around a limb,
     or turn off there, as `boxes`. Closed cuts may be there `early`, before they are final, the second alone. Across the
-    surface the embeddings leave `holes`.
+    surface the embeddings leave `holes`. If `turned`, candidate 1 comes to an edge over the vertex where candidate 0 leaves it.
     """
 
     size: int
@@ -138,6 +138,7 @@ class FakeLive:
     stale: bool = False
     boxes: bool = False
     early: bool = False
+    turned: bool = False
     through: list[object] = field(default_factory=list)
     bent: list[object] = field(default_factory=list)
     forks: list[FakeLive] = field(default_factory=list)
@@ -175,7 +176,8 @@ class FakeLive:
         tail = list(target) if isinstance(target, tuple) else [target]
         candidates = []
         for index in range(len(self.ready)):
-            path = head[:-1] + self._walk(head[-1], tail[0], index) + tail[1:]
+            arrives = tail[::-1] if self.turned and index == 1 else tail
+            path = head[:-1] + self._walk(head[-1], arrives[0], index) + arrives[1:]
             if not (self.ready[index] or self.stale) or set(tail) & set(self.islands):
                 path = []
             points = grid_points(self.size)[path] if path else np.empty((0, 3))

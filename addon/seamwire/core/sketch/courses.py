@@ -98,15 +98,11 @@ class Courses:
         """Return the live wires that compute for the request that comes next."""
         return [live for own in self.unfinished[:1] for live in self._searches[own.key].lives()]
 
-    def poll(self) -> tuple[list[Request], bool]:
-        """Search on for the first request without a final course. Return the requests that got one, and whether another course is new."""
-        done = []
-        for own in self.unfinished:
-            before, now = self.of(own), self._step(own)
-            if not now.final:
-                return done, now is not before
-            done.append(own)
-        return done, False
+    def step(self) -> tuple[Request, bool]:
+        """Search on for the first unfinished request. Return it, and whether it has another course now."""
+        own = self.unfinished[0]
+        before = self.of(own)
+        return own, self._searched(own) is not before
 
     def give_up(self, reason: str = "") -> None:
         """Let everything stay as it is shown, because nothing more is looked for."""
@@ -115,7 +111,7 @@ class Courses:
             self._end(own, Course(shown.wires, final=True, reason=reason))
         self.unfinished = []
 
-    def _step(self, request: Request) -> Course:
+    def _searched(self, request: Request) -> Course:
         try:
             course = next(self._searches[request.key])
         except StopIteration:

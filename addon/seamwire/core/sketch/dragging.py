@@ -142,6 +142,9 @@ class Dragging(Interaction):
             if is_same(leg.stays, pick):
                 continue
             way = leg.request(pick, meets)
+            if isinstance(pick, tuple) and meets is None:
+                # Another wire leaves in the direction of one that arrives, and goes the other way from one that leaves.
+                meets = way.id, leg.moving
             target, avoid = pick, None
             if direction is not None and leg.moving == "start":
                 target, avoid = direction[1], direction[0]
@@ -159,9 +162,7 @@ class Dragging(Interaction):
             shown = wire if found.solved else leg.wire
             course = Course((shown,), final=found.final, choices=ordered if found.final else ())
             begun.append(Begun(way, course, WaySearch(way, self._board.ground, leg.live, leg.begin)))
-            if isinstance(pick, tuple) and direction is None:
-                # Another wire leaves in the direction of one that arrives, and goes the other way from one that leaves.
-                meets = way.id, leg.moving
+            if meets is not None and meets[0] == way.id:
                 direction = directed(wire, leg.moving)
         self._courses = tuple(begun)
         if self._is_solved and missing:

@@ -148,10 +148,12 @@ class Sketch(Board):
             return False
         before = (self.revision, round(self.progress, 2))
         self._read_progress()
-        done, is_new = self.courses.poll()
-        if done or is_new:
-            self.draw()
-        for own in done:
+        while self.courses.unfinished:
+            own, is_new = self.courses.step()
+            if is_new:
+                self.draw()  # the next request may go on from there
+            if not self.is_final(own):
+                break
             self._told_of(own)
         self._poll_interaction()
         return before != (self.revision, round(self.progress, 2))
@@ -437,6 +439,8 @@ class Sketch(Board):
         self.end_chain()
         if wait and self.waiting:
             self.wait()
+        if any(not self.courses.of(own).wires for own in self.courses.unfinished):
+            self.tell("Wires were dropped that had not been computed yet")
         self.courses.give_up()
         lost = [own.id for own in self.network.requests if not self.courses.of(own).wires]
         if lost:

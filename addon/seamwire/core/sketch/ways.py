@@ -228,7 +228,7 @@ class WaySearch(Search):
             return begin, *goal(way.end, ground.wire(way.closes))
         after = ground.after(way) if way.along == "EDGES" else None
         begin = backwards(way.end, way.was, after, way.along)
-        direction = None if way.meets is None else directed(ground.wire(way.meets[0]), way.meets[1])
+        direction = ground.heading(way.meets, way.start)
         return (begin, way.start, None) if direction is None else (begin, direction[1], direction[0])
 
     def _final(self, ordered: tuple[Wire, ...]) -> Course:

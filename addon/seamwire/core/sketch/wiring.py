@@ -273,7 +273,7 @@ class Wiring(Interaction):
             end=target.pick,
             goes_on=seed.after if board.options.along == "EDGES" else None,
             how=board.how(board.options.along),
-            follow=self.active_index if is_done else self.chosen,
+            follow=self.chosen,
             closes=None if closes is None else closes.id,
         )
         ends = self.ending(target) is not None

@@ -248,6 +248,46 @@ def test_a_line_that_is_not_computed_becomes_wires_that_can_be_edited() -> None:
     assert session.wires[-1].id == last.id
 
 
+def test_the_end_keeps_wires_as_they_are_drawn_and_drops_the_others_with_a_report() -> None:
+    table = Table(ready=(True, False), fork_ready=(False, False), shorter=1)
+    session = table.session
+    for pick in (0, 7, 8):
+        session.click(pick)
+    assert courses(session) == [(0, 1, 7)], "the other metric may be shorter, and the next wire is not there yet"
+    assert session.picture.missing
+    session.finish(wait=False)
+    assert courses(session) == [(0, 1, 7)]
+    assert len(session.network.requests) == 1
+    assert session.waiting == 0
+    assert "dropped" in session.reports[-1]
+
+
+def test_wires_that_are_computed_at_the_same_moment_go_on_from_each_other() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    for pick in (0, 7, 9):
+        session.click(pick)
+    for live in (table.lives["EDGES"], *table.lives["EDGES"].forks):
+        live.ready = (True, True)
+    session.poll()
+    assert session.waiting == 0
+    assert courses(session) == [(0, 1, 7), (7, 8, 9)]
+    assert session.wires[1].heading == (1, 7)
+    assert [live.seeded for live in table.lives["EDGES"].forks].count(((1, 7), True)) == 1
+
+
+def test_the_end_waits_for_all_wires() -> None:
+    table = Table(ready=(False, False), fork_ready=(True, True))
+    session = table.session
+    for pick in (0, 7):
+        session.click(pick)
+    assert session.picture.missing == ((0, 7),)
+    table.compute()
+    session.finish()
+    assert courses(session) == [(0, 1, 7)]
+    assert session.reports == []
+
+
 def test_a_wire_that_is_final_asks_for_nothing_more() -> None:
     session = Table().session
     session.click(0)

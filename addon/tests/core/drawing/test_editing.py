@@ -216,6 +216,16 @@ def test_of_three_the_ways_of_half_a_wire_are_computed_and_come_in_the_same_orde
         assert courses(session) == [expected, (14, 15, 21)]
 
 
+def test_another_way_that_comes_to_an_edge_from_the_other_side_ends_where_the_next_wire_begins() -> None:
+    session = Table(turned=True).session
+    session.click(0)
+    session.click((20, 21))
+    session.click(33)
+    assert courses(session) == [(0, 1, 2, 8, 14, 20, 21), (21, 27, 33)]
+    assert session.retrace(session.wires[0])
+    assert courses(session) == [(0, 6, 12, 18, 19, 20, 21), (21, 27, 33)]
+
+
 def test_a_straight_wire_has_no_other_way() -> None:
     session = corner().session
     assert not session.retrace(session.wires[0])

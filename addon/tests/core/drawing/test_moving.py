@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import pytest
 from seamwire.core.network.network import Snap
 from seamwire.core.sketch.dragging import Dragging
 from setting import use
@@ -125,8 +126,9 @@ def test_undo_during_a_drag_takes_back_the_drag_alone() -> None:
     assert not session.picture.can_redo
 
 
-def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
-    table = corner(fork_ready=(False, False))
+@pytest.mark.parametrize("stale", [False, True])
+def test_a_drag_that_is_not_computed_is_done_when_it_is(stale: bool) -> None:
+    table = corner(fork_ready=(False, False), stale=stale)
     session = table.session
     session.drag(3)
     assert not session.drag_to(4)
@@ -137,6 +139,18 @@ def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)], "until others are known"
     table.compute()
     assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
+
+
+def test_wires_that_are_computed_after_the_drag_meet_at_an_edge_as_well() -> None:
+    table = Table(fork_ready=(False, False))
+    session = table.session
+    for pick in (0, (20, 21), 33):
+        session.click(pick)
+    session.drag((20, 21))
+    session.drag_to((25, 26))
+    assert session.drag_end()
+    table.compute()
+    assert courses(session) == [(0, 1, 7, 13, 19, 25, 26), (26, 32, 33)]
 
 
 def test_there_must_be_a_seed_to_drag() -> None:
