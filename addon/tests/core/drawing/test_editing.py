@@ -68,6 +68,7 @@ def test_a_chain_goes_on_from_its_last_seed_in_its_direction() -> None:
 def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     session = corner().session
     assert session.network.closing_point == 0
+    assert session.picture.seeds == (ShownSeed(3), ShownSeed(21, SeedRole.LIVE), ShownSeed(0, SeedRole.CLOSING))
     session.hover(Snap(0, "SEED"))
     assert session.picture.intent is Intent.CLOSE
     session.click(Snap(0, "SEED"))

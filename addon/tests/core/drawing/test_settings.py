@@ -101,3 +101,13 @@ def test_the_percentile_matters_where_the_library_clamps() -> None:
     families = pytest.importorskip("seamwire_core").metric_families()
     clamped = {family.name for family in families if family.has_clamp and family.name in METRICS}
     assert {name for name in METRICS if SETTINGS["clamp"].matters("SURFACE", name)} == clamped
+
+
+def test_a_chain_that_goes_on_across_the_surface_begins_at_the_vertex() -> None:
+    table = corner()
+    assert table.session.seed == (15, 21)
+    use(table.session, along="SURFACE")
+    assert table.session.seed == 21
+    assert table.lives["SURFACE"].seeded == (21, False)
+    use(table.session, along="EDGES")
+    assert table.session.seed == (15, 21)
