@@ -111,6 +111,8 @@ class Symmetry:
         If only `curves` matter, because they are cut into the faces, an image across the surface stays whole if its ends have
         partners. If the mesh lacks edges of it, it has only these two vertices.
         """
+        if not axes:
+            return []
         by_curve = curves and self._is_across(wire)
         images: list[Wire] = []
         taken = {frozenset(wire.edges()) or wire.vertices}
