@@ -219,7 +219,10 @@ class Sketch(Board):
         try:
             with self._guarded():
                 edit = find()
-                return edit is None or self.edit(edit)
+                if edit is not None:
+                    return self.edit(edit)
+                self._look_again()
+                return True
         except ValueError as error:
             self._look_again()
             return self.refuse(str(error))

@@ -6,6 +6,7 @@ from __future__ import annotations
 import pytest
 from seamwire.core.network.network import Snap
 from seamwire.core.sketch.dragging import Dragging
+from seamwire.core.sketch.picture import Intent
 from setting import use
 from table import Table, corner, courses
 
@@ -172,3 +173,11 @@ def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
     session.drag_end()
     session.retrace(session.wires[0])
     assert courses(session) == [(0, 1, 2, 8)]
+
+
+def test_a_seed_that_is_pressed_and_released_where_it_is_is_not_shown_as_held() -> None:
+    session = corner().session
+    session.drag(3)
+    assert session.picture.intent is Intent.MOVE
+    assert session.drag_end()
+    assert session.picture.intent is Intent.NOTHING
