@@ -52,8 +52,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from the click to the first wire, from the click to both final wires, and from a move of the cursor to the next wire.
     """
     from seamwire.core.drawing import drawing, session
-    from seamwire.core.picking.camera import Camera
-    from seamwire.core.picking.picker import Picker
+    from seamwire.core.picking.picker import Camera, Picker
     from seamwire.core.solver.solver import LiveMaker
     from seamwire.mesh import edit_mesh
     from seamwire.operators.chain import TICK

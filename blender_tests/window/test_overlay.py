@@ -54,8 +54,8 @@ class Said:
         self._said: dict[str, object] = {}
 
     @property
-    def drawing(self) -> Picture:
-        return self.picture  # it has the number of the network, too
+    def network_revision(self) -> int:
+        return self.picture.network_revision
 
     @property
     def wires(self) -> tuple[Wire, ...]:

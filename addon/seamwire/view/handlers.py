@@ -11,7 +11,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..mesh.registration import Timer, handler, together
-from ..mesh.settings import listeners, tool_is_active
+from ..mesh.settings import ADDON, listeners, tool_is_active
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,7 +57,7 @@ def _with_records(function: str) -> Callable[..., None]:
 
     @persistent
     def call(*_: object) -> None:
-        session = sys.modules.get(f"{__package__.rpartition('.')[0]}.mesh.object_session")
+        session = sys.modules.get(f"{ADDON}.mesh.object_session")
         if session is not None:
             getattr(session, function)()
 

@@ -23,15 +23,14 @@ from ..mesh import settings as chosen
 from ..mesh.edit_mesh import visible_stretch
 from ..mesh.object_session import ObjectSession
 from ..mesh.pose import Pose
-from .crest_view import CrestView
 from .failures import failures
-from .layers import makers
+from .layers import CrestView, StretchHeat, makers
 from .overlay import Overlay
-from .stretch_heat import StretchHeat
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator
 
+    import seamwire_core
     from numpy.typing import ArrayLike, NDArray
 
     from ..core.islands.islands import Islands
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
-    from ..core.picking.camera import Camera
+    from ..core.picking.picker import Camera
     from ..core.sketch.picture import Picture
     from ..core.sketch.sketch import Sketch
     from ..core.solver.solver import End
@@ -69,20 +68,16 @@ class ShownIslands:
     @property
     def newest(self) -> Islands | None:
         """The islands that were computed last. None if computing them failed."""
-        return None if self._failed else self._maker.answer
+        return None if failures.has(*self._part) else self._maker.answer
 
     @property
     def busy(self) -> bool:
         """Whether islands are being computed: `poll` is to be called now and then."""
-        return not self._failed and (self._maker.busy or self._stale)
+        return not failures.has(*self._part) and (self._maker.busy or self._asked != self._key)
 
     @property
-    def _failed(self) -> bool:
-        return failures.has(*self._part)
-
-    @property
-    def _stale(self) -> bool:
-        return self._asked != (self._session.network_revision, self._seams_read)
+    def _key(self) -> tuple[int, int]:
+        return self._session.network_revision, self._seams_read
 
     @property
     def pointed_island(self) -> int | None:
@@ -104,24 +99,22 @@ class ShownIslands:
         return self._told != before
 
     def _ask(self) -> None:
+        session = self._session
         try:
             self._maker.check()
-            if self._stale:
-                self._want()
+            if self._asked == self._key:
+                return
+            self._asked = self._key
+            wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
+            planned = (wire for wire in session.wires if wire.planned)
+            meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
+            # A chain that ends turns cuts of wires into seams: the islands stay the same.
+            if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
+                self._cuts, self._meant = wanted, meant
+                self._maker.ask(self._asked, wanted, meant)
         except Exception:
             self._asked = self._cuts = None  # the next attempt asks anew
             raise
-
-    def _want(self) -> None:
-        session = self._session
-        self._asked = (session.network_revision, self._seams_read)
-        wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
-        planned = (wire for wire in session.wires if wire.planned)
-        meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
-        # A chain that ends turns cuts of wires into seams: the islands stay the same.
-        if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
-            self._cuts, self._meant = wanted, meant
-            self._maker.ask(self._asked, wanted, meant)
 
 
 def in_bounds(obj: bpy.types.Object, view: Camera, cursor: tuple[float, float]) -> bool:
@@ -198,7 +191,6 @@ class ObjectView:
 
     @property
     def session(self) -> Sketch:
-        """The object's session."""
         return self.mesh.session
 
     @property
@@ -216,7 +208,6 @@ class ObjectView:
         )
 
     def close(self) -> None:
-        """Let go of what works on threads."""
         self.session.offering.edges.stop_search()
         self._islands.close()
         for layer in self._layers:
@@ -261,7 +252,6 @@ class ObjectView:
             self.overlay.repose()
 
     def _follow_picker(self) -> Picker:
-        """Return the picker, made anew if the mesh is seen in another pose now."""
         self.follow_pose()
         if self._posed_picker is None:
             posed = replace(self.mesh.arrays, points=self.pose.points)
@@ -341,6 +331,10 @@ class ObjectView:
         except ReferenceError:
             return False
 
+    def is_current(self, obj: bpy.types.Object) -> bool:
+        """Whether this is the object in edit mode as it is now."""
+        return not self.stale and self.mesh.alive() and self.obj == obj
+
     def follow_name(self) -> None:
         """Take note of the object's name, which finds it again after undo has made another object."""
         if self.exists:
@@ -366,7 +360,7 @@ class ObjectView:
             anywhere=across and options.into_faces,
             session=None if plain else self.session,
             xray=options.xray,
-            preferred=self.session.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
+            preferred=self.session.symmetry.on_plane(options.mirror) if mirrored else frozenset(),
             strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
             crests=None if self.pose.is_bent or not has_crests else self.crest_view.crests,
@@ -380,14 +374,13 @@ class ObjectView:
             return None
         return self._follow_picker().seen_along(view, self.obj.matrix_world, pick)
 
-    def depth(self, view: Camera, cursor: tuple[float, float]) -> float | None:
-        """Return how far from the viewer the object is under the cursor; None where it is not."""
-        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
-        return None if found is None else found.depth
+    def hit(self, view: Camera, cursor: tuple[float, float]) -> seamwire_core.Picked | None:
+        """Return what `Picker.surface_at` finds of the mesh as it is seen."""
+        return self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
 
     def surface_at(self, view: Camera, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
-        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
+        found = self.hit(view, cursor)
         return None if found is None else (self.pose.at_rest(found.place, found.triangle), found.triangle)
 
     def is_on_mirrored_half(self, view: Camera, cursor: tuple[float, float]) -> bool:

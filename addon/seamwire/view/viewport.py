@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.picking.camera import Camera
+from ..core.picking.picker import Camera
 
 if TYPE_CHECKING:
     import bpy
