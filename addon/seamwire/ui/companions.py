@@ -45,7 +45,6 @@ def join(addon: ModuleType) -> None:
 
 
 def leave(addon: ModuleType) -> None:
-    """End the operators of an add-on, and remove its parts."""
     for operator in tuple(running):
         if type(operator).__module__.startswith(f"{addon.__name__}."):
             operator.end()
@@ -60,10 +59,8 @@ def _waiting() -> list[ModuleType]:
 
 
 def register() -> None:
-    """Let add-ons join that were enabled before."""
     together(*((partial(join, addon), partial(leave, addon)) for addon in _waiting()))[0]()
 
 
 def unregister() -> None:
-    """Let all of them leave."""
     together(*((None, partial(leave, addon)) for addon in _joined))[1]()

@@ -3,17 +3,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL
 from ..operators.keymaps import ACTION_OPERATOR, NAME
 from ..words.keys import KEYS, Action
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 START = {"type": "W", "value": "PRESS", "ctrl": True, "alt": True}
 
@@ -42,30 +37,20 @@ _SPACE = {"space_type": "VIEW_3D", "region_type": "WINDOW"}
 
 
 def _add_keys() -> None:
-    try:
-        _registered.extend(_add())
-    except BaseException:
-        _remove_keys()
-        raise
-
-
-def _add() -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
     configurations = bpy.context.window_manager.keyconfigs
     if configurations.addon is None:  # background mode has no keymaps
         return
     keymap = configurations.addon.keymaps.new(name="Mesh", space_type="EMPTY")
     item = keymap.keymap_items.new("wm.tool_set_by_id", **START)
+    _registered.append((keymap, item))
     item.properties.name = TOOL
-    yield keymap, item
     # Blender copies an add-on's keymap to the user's only if its own configuration has a keymap with this name.
     configurations.default.keymaps.new(name=NAME, **_SPACE)
     keymap = configurations.addon.keymaps.new(name=NAME, **_SPACE)
     for action, key in KEYS:
-        if key.ctrl == key.shift == key.alt == -1:
-            item = keymap.keymap_items.new(ACTION_OPERATOR, key.type, key.value, any=True)
-        else:
-            held = {"ctrl": key.ctrl == 1, "shift": key.shift == 1, "alt": key.alt == 1}
-            item = keymap.keymap_items.new(ACTION_OPERATOR, key.type, key.value, **held)
+        held = {name: getattr(key, name) for name in ("ctrl", "shift", "alt")}
+        given = {"any": True} if set(held.values()) == {-1} else {name: want == 1 for name, want in held.items()}
+        item = keymap.keymap_items.new(ACTION_OPERATOR, key.type, key.value, **given)
         item.properties.action = action.name
 
 
@@ -73,10 +58,12 @@ def _remove_keys() -> None:
     while _registered:
         keymap, item = _registered.pop()
         keymap.keymap_items.remove(item)
-    remove(NAME)
-
-
-register, unregister = together(*classes(MESH_OT_seamwire_key), (_add_keys, _remove_keys))
+    empty(NAME)
+    configurations = bpy.context.window_manager.keyconfigs
+    for configuration in (configurations.addon, configurations.default):
+        keymap = configuration.keymaps.get(NAME) if configuration is not None else None
+        if keymap is not None:
+            configuration.keymaps.remove(keymap)
 
 
 def empty(name: str) -> None:
@@ -89,11 +76,5 @@ def empty(name: str) -> None:
         configurations.update()
 
 
-def remove(name: str) -> None:
-    """Remove a keymap that only the add-on uses."""
-    empty(name)
-    configurations = bpy.context.window_manager.keyconfigs
-    for configuration in (configurations.addon, configurations.default):
-        keymap = configuration.keymaps.get(name) if configuration is not None else None
-        if keymap is not None:
-            configuration.keymaps.remove(keymap)
+# Keys that were added before an error are removed too.
+register, unregister = together(*classes(MESH_OT_seamwire_key), (lambda: None, _remove_keys), (_add_keys, lambda: None))

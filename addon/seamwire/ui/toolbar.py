@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.registration import classes, together
-from ..mesh.settings import TOOL, settings, tool_is_active
+from ..mesh.settings import ADDON, TOOL, settings, tool_is_active
 from ..operators import hover, island_operators
 from ..operators.keymaps import HELP_PANEL, NAME
 from ..terms.choices import ALONG
@@ -24,27 +24,26 @@ VIEWS = "Views"
 """The group of settings that a popover and a menu show."""
 GROUPS = tuple(dict.fromkeys(setting.group for setting in SETTINGS.values() if setting.group != VIEWS))
 """The groups of settings that have panels."""
-_STRENGTHS = {strength_name(along) for along in ALONG}
-_OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
+_STRENGTHS = set(map(strength_name, ALONG))
+_OBJECTS = f"{ADDON}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show the buttons of a job, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
-    jobs = layout.row(align=True)
-    jobs.ui_units_x = 6
+
+    def row(width: float, align: bool = False) -> bpy.types.UILayout:
+        made = layout.row(align=align)
+        made.ui_units_x = width
+        return made
+
+    jobs = row(6, align=True)
     jobs.operator("mesh.seamwire_suggest", text="Suggest")
     jobs.operator("mesh.seamwire_unwrap", text="Unwrap")
-    row = layout.row()
-    row.ui_units_x = 5.5
-    row.prop(chosen, "along", text="")
+    row(5.5).prop(chosen, "along", text="")
     if along == "SURFACE":
-        finish = layout.row()
-        finish.ui_units_x = 3
-        finish.prop(chosen, "finish", text="")
-    strength = layout.row()
-    strength.ui_units_x = 5.5
-    strength.prop(chosen, strength_name(along))
+        row(3).prop(chosen, "finish", text="")
+    row(5.5).prop(chosen, strength_name(along))
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)
     layout.prop(chosen, "clear", text="Clear", toggle=True)
@@ -112,16 +111,11 @@ class VIEW3D_PT_seamwire_overlays(bpy.types.Panel):
     bl_ui_units_x = 13
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show the views, as Blender shows its overlays."""
         self.layout.label(text="Seamwire Views")
         draw_group(context, _split(self.layout), VIEWS)
 
 
 def _panel(name: str) -> type[bpy.types.Panel]:
-    """Return the panel of a group in the sidebar, below the active tool."""
-
-    def poll(_cls: type, context: bpy.types.Context) -> bool:
-        return tool_is_active(context)
 
     def draw(self: bpy.types.Panel, context: bpy.types.Context) -> None:
         draw_group(context, _split(self.layout), name)
@@ -134,7 +128,7 @@ def _panel(name: str) -> type[bpy.types.Panel]:
         "bl_label": name,
         "bl_parent_id": "VIEW3D_PT_active_tool",
         "bl_options": {"DEFAULT_CLOSED"} if name == "Advanced" else set(),
-        "poll": classmethod(poll),
+        "poll": classmethod(lambda _cls, context: tool_is_active(context)),
         "draw": draw,
     }
     return type(f"VIEW3D_PT_seamwire_{name.lower()}", (bpy.types.Panel,), body)
@@ -143,7 +137,6 @@ def _panel(name: str) -> type[bpy.types.Panel]:
 OPERATOR = "mesh.seamwire_draw"
 KEYMAP = f"3D View Tool: Edit Mesh, {NAME}"
 """The name of the tool's keymap in Blender."""
-_MODE = "EDIT_MESH"
 _OTHER = "builtin.select_box"
 _NOTHING_ELSE = dict.fromkeys(
     ("keymap", "gizmo_group", "data_block", "operator", "idname_fallback", "keymap_fallback"), ""
@@ -157,10 +150,8 @@ def _key(first: str, type: str = "LEFTMOUSE", **held: bool) -> tuple[str, dict[s
 
 
 class SeamwireTool(bpy.types.WorkSpaceTool):
-    """The tool in the toolbar. A click begins a chain, and most other keys keep Blender's meaning."""
-
     bl_space_type = "VIEW_3D"
-    bl_context_mode = _MODE
+    bl_context_mode = "EDIT_MESH"
     bl_idname = TOOL
     bl_label = NAME
     bl_description = (

@@ -214,7 +214,6 @@ class EditedObjects:
             view.measure()
 
     def make_layers(self) -> None:
-        """Make the layers of all objects anew, because others are to be drawn."""
         for view in self._views:
             view.make_layers()
         if self._views:

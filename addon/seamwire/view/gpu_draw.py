@@ -17,7 +17,7 @@ from .theme import HALO, Color, Style
 from .viewport import clipping_planes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -140,6 +140,21 @@ class Within:
         return self._made[eye.border]
 
 
+class Made:
+    """Keeps what was made, by name, until it is wanted for another key."""
+
+    def __init__(self) -> None:
+        self._made: dict[Hashable, tuple[object, Any]] = {}
+
+    def of(self, name: Hashable, key: object, make: Callable[[], Any]) -> Any:  # noqa: ANN401 - what `make` makes
+        if name not in self._made or self._made[name][0] != key:
+            self._made[name] = key, make()
+        return self._made[name][1]
+
+    def clear(self) -> None:
+        self._made.clear()
+
+
 class Lines:
     """Segments of one style, ready to be drawn, by their ends, (k, 2, 3); those of a curve in order: dashes run on over its corners.
 
@@ -151,7 +166,7 @@ class Lines:
         self._ends = ends
         self._shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
         self._plain = self._make(ends)
-        self._dashed: dict[float, tuple[bytes, gpu.types.GPUBatch | None]] = {}  # by the length of a dash
+        self._dashed = Made()  # by the length of a dash
         self._within = Within(self._inside)
 
     def _inside(self, eye: Eye) -> Lines:
@@ -164,9 +179,7 @@ class Lines:
         return batch_for_shader(self._shader, "LINES", {"pos": ends.reshape(-1, 3).astype(np.float32)})
 
     def _in_dashes(self, eye: Eye, length: float) -> gpu.types.GPUBatch | None:
-        if length not in self._dashed or self._dashed[length][0] != eye.key:
-            self._dashed[length] = eye.key, self._make(dashes(self._ends, eye, length * eye.scale))
-        return self._dashed[length][1]
+        return self._dashed.of(length, eye.key, lambda: self._make(dashes(self._ends, eye, length * eye.scale)))
 
     def draw(self, eye: Eye) -> None:
         lines = self._within.of(eye)
@@ -182,7 +195,6 @@ class Lines:
         lines._draw(eye, [(lines._in_dashes(eye, _HIDDEN_DASH), color, max(1.0, _HIDDEN_WIDTH * style.width))])
 
     def _passes(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> list[_Pass]:
-        """Return what to draw, one over the other."""
         style = self.style
         batch = self._in_dashes(eye, style.dash) if style.dash else self._plain
         passes: list[_Pass] = [(batch, color, width) for color, width in layers(style, opacity, rim)]
@@ -320,7 +332,6 @@ def draw_over(draw: Callable[[float], None], lift: float = OVER) -> None:
 
 
 def text_size(scale: float) -> float:
-    """Return the size of the interface's text, in pixels."""
     return bpy.context.preferences.ui_styles[0].widget.points * scale
 
 
@@ -330,12 +341,10 @@ def set_text(size: float) -> None:
 
 
 def text_width(text: str) -> float:
-    """Return how long a text is, in pixels."""
     return blf.dimensions(_FONT, text)[0]
 
 
 def draw_text(text: str, at: tuple[float, float], color: Sequence[float], shadow: bool = True) -> None:
-    """Draw one line of text from a place on its base line."""
     blf.color(_FONT, *color)
     if shadow:
         # As Blender's own text in the viewport: dark under light text, light under dark.

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -51,8 +51,6 @@ _GROUND: Color = (0.07, 0.07, 0.08, 0.8)
 
 @dataclass(frozen=True)
 class Legend:
-    """One box."""
-
     lines: tuple[str, ...]  # the title, and further lines of text
     colors: Sequence[Color] = ()  # of a bar, from the least to the most; without them there is no bar
     marks: tuple[tuple[float, str], ...] = ()  # numbers below the bar: each with where it is, 0 to 1
@@ -159,7 +157,7 @@ class StretchHeat(Layer):
         self._is_known = False
         self._is_missing = False
         self._revision = 0  # counts other maps and kinds
-        self._made: dict[str, tuple[object, Any]] = {}
+        self._made = gpu_draw.Made()
         self._summary: tuple[object, _Summary | None] = (None, None)
 
     @property
@@ -206,7 +204,6 @@ class StretchHeat(Layer):
         return self._key() not in (None, self._summary[0])
 
     def _key(self) -> tuple[object, int] | None:
-        """Return what the summary depends on, or None if there is nothing to say."""
         found = self._islands.answer
         return (found.key, self._revision) if self.shown and found is not None and found.count else None
 
@@ -228,20 +225,14 @@ class StretchHeat(Layer):
     def draw_heat(self, eye: Eye) -> bool:
         if not self.shown:
             return False
-        faces = self._once("faces", None, lambda: gpu_draw.ColoredFaces(self._pose.points))
-        self._once("colors", self._revision, lambda: self._fill(faces))
+        faces = self._made.of("faces", None, lambda: gpu_draw.ColoredFaces(self._pose.points))
+        self._made.of("colors", self._revision, lambda: self._fill(faces))
         faces.draw_over(eye, heat_colors(_OPACITY))
-        lines = self._once("outline", self._summary[0], self._outline)
+        lines = self._made.of("outline", self._summary[0], self._outline)
         if lines is not None:
             with gpu_draw.blended("LESS_EQUAL"):
                 lines.draw(eye)
         return True
-
-    def _once(self, name: str, key: object, make: Callable[[], object]) -> Any:  # noqa: ANN401 - what `make` makes
-        """Return what was made for a key, or make it."""
-        if name not in self._made or self._made[name][0] != key:
-            self._made[name] = key, make()
-        return self._made[name][1]
 
     def _fill(self, faces: gpu_draw.ColoredFaces) -> None:
         number = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
@@ -250,7 +241,6 @@ class StretchHeat(Layer):
         faces.fill((step, self._arrays.triangles[order[bounds[step] : bounds[step + 1]]]) for step in range(_STEPS))
 
     def _outline(self) -> gpu_draw.Lines | None:
-        """Return the lines around the worst island."""
         if self.summary is None:
             return None
         triangles = self._arrays.triangles[self.summary.triangles].astype(np.int64)
@@ -278,7 +268,6 @@ def heat_colors(opacity: float = 1.0) -> list[Color]:
 
 
 def _times(octaves: float) -> str:
-    """Return octaves as what they multiply by."""
     return f"{2.0**octaves:.2f}×"  # noqa: RUF001 - a sign, no letter
 
 
@@ -296,12 +285,11 @@ class CrestView(Layer):
         self._is_asked = False
         self._seen: Crests | None = None
         self._is_visible = False
-        self._lines: tuple[gpu_draw.Lines, ...] | None = None
+        self._made = gpu_draw.Made()
         self.is_wanted = False  # whether the lines are needed even if they are not shown
 
     @property
     def crests(self) -> Crests | None:
-        """The lines, once they are needed and found."""
         return self._maker.answer
 
     def follow(self, options: Options, _source: object, _strokes: object) -> None:
@@ -313,11 +301,9 @@ class CrestView(Layer):
 
     @property
     def busy(self) -> bool:
-        """Whether the lines are being searched for, or wait for `poll`."""
         return self._maker.busy or self.crests is not self._seen
 
     def poll(self) -> bool:
-        """Return whether lines were found since the last call. Raise what went wrong. Then they are searched for again."""
         try:
             self._maker.check()
         except Exception:
@@ -330,18 +316,20 @@ class CrestView(Layer):
         self._maker.close()
 
     def repose(self) -> None:
-        self._lines = None
+        self._made.clear()
 
     def draw_lines(self, eye: Eye) -> None:
         crests = self.crests
         if not self._is_visible or crests is None:
             return
-        if self._lines is None:
+
+        def make() -> tuple[gpu_draw.Lines, ...]:
             is_ridge = crests.ridges[crests.owners[crests.pieces]]
             seen = self._pose.places(crests.segments.reshape(-1, 3)).reshape(-1, 2, 3)
-            self._lines = gpu_draw.Lines(_VALLEY, seen[~is_ridge]), gpu_draw.Lines(_RIDGE, seen[is_ridge])
+            return gpu_draw.Lines(_VALLEY, seen[~is_ridge]), gpu_draw.Lines(_RIDGE, seen[is_ridge])
+
         with gpu_draw.blended("LESS_EQUAL"):
-            for lines in self._lines:
+            for lines in self._made.of("lines", crests, make):
                 lines.draw(eye)
 
     def legends(self) -> list[Legend]:

@@ -269,7 +269,6 @@ class ObjectView:
             self.stale = stale
 
     def make_layers(self) -> None:
-        """Make the layers anew, because others are to be drawn."""
         made = [
             failures.attempt(("layer made", self.name, make), partial(make, self.mesh.arrays, self._surface, self.pose))
             for make in makers
@@ -297,7 +296,6 @@ class ObjectView:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being computed: `poll` is to be called now and then."""
         return self.mesh.busy or self.islands.busy or any(layer.busy for _, layer in self._working_layers())
 
     def poll(self) -> bool:
@@ -311,7 +309,6 @@ class ObjectView:
         return any((self.session.revision != seen, self.islands.poll(), told))
 
     def _working_layers(self) -> Iterator[tuple[tuple[Hashable, ...], Layer]]:
-        """Iterate over the layers that have not failed, each after what `failures` calls it."""
         for number, layer in enumerate(self._layers):
             key = ("layers", self.name, number)
             if not failures.has(*key):
@@ -332,11 +329,9 @@ class ObjectView:
             return False
 
     def is_current(self, obj: bpy.types.Object) -> bool:
-        """Whether this is the object in edit mode as it is now."""
         return not self.stale and self.mesh.alive() and self.obj == obj
 
     def follow_name(self) -> None:
-        """Take note of the object's name, which finds it again after undo has made another object."""
         if self.exists:
             self.name = self.obj.name_full
 

@@ -20,6 +20,7 @@ from .gpu_draw import (
     ColoredFaces,
     Eye,
     Lines,
+    Made,
     blended,
     draw_dots,
     draw_rectangle,
@@ -68,16 +69,12 @@ class Sheet:
             seen = self._pose.places(points)
             self._pieces.setdefault(style, []).append(np.stack([seen[:-1], seen[1:]], axis=1))
 
-    def path(self, style: Style, vertices: Sequence[int]) -> None:
-        self.edges(style, pairwise(vertices))
-
     def edges(self, style: Style, edges: Iterable[Edge]) -> None:
         pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
         if len(pairs):
             self._pieces.setdefault(style, []).append(self._pose.points[pairs])
 
     def dashes(self, style: Style, start: Pick, end: Pick) -> None:
-        """Add a dashed line between two picks."""
         ends = np.array([place_of(start, self._pose.points), place_of(end, self._pose.points)])
         parts = np.linspace(0.0, 1.0, 2 * _DASHES)[:, None]
         self._pieces.setdefault(style, []).append((ends[0] + parts * (ends[1] - ends[0])).reshape(-1, 2, 3))
@@ -90,7 +87,6 @@ class Sheet:
         self.dots = [(style, np.array(places)) for style, places in self._places.items()]
 
     def draw_lines(self, eye: Eye, hidden: bool, xray: bool = False) -> None:
-        """Draw the lines: what the mesh lies before, or the rest."""
         for lines in self.lines:
             if hidden:
                 lines.draw_hidden(eye, 1.0 if xray else lines.style.hidden)
@@ -98,7 +94,6 @@ class Sheet:
                 lines.draw(eye)
 
     def draw_dots(self, eye: Eye, hidden: bool, xray: bool) -> None:
-        """Draw the dots: what the mesh lies before, or the rest."""
         for style, places in self.dots:
             inside = eye.shows(places)
             shown = places if inside is None else places[inside]
@@ -130,29 +125,20 @@ class Overlay:
         self._preferences = preferences
         self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
-        self._looks = self._current_looks()
-        self._sheets: dict[str, tuple[object, Sheet]] = {}
+        self._looks = Looks()
+        self._made = Made()
         self._strokes: list[tuple[NDArray[np.float64], bool]] = []
-        self._faces: ColoredFaces | None = None
-        self._tinted: object = None
 
     def repose(self) -> None:
-        self._sheets.clear()
-        self._faces = self._tinted = None
+        self._made.clear()
         list(self._ask_layers("repose"))
 
-    # Drawing
-
-    def _current_looks(self) -> Looks:
-        return looks_of(bpy.context.preferences.themes[0].view_3d, self._preferences)
-
     def draw_in_scene(self) -> None:
-        """Draw on the surface; to be called for each region, after the view."""
         picture = self._picture()
-        looks = self._current_looks()
+        looks = looks_of(bpy.context.preferences.themes[0].view_3d, self._preferences)
         if looks is not self._looks:
             self._looks = looks
-            self._sheets.clear()
+            self._made.clear()
         sheets = self._current_sheets(picture)
         eye = Eye(bpy.context.region_data, self._obj().matrix_world @ self._to_object)
         if not any(self._ask_layers("draw_heat", eye)):
@@ -175,16 +161,12 @@ class Overlay:
     def _draw_tint(self, eye: Eye, found: Islands | None) -> None:
         if found is None or self._looks.tint <= 0.0:
             return
-        if self._faces is None:
-            self._faces = ColoredFaces(self._pose.points)
-        if found.key != self._tinted:
-            # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
-            self._faces.fill(found.pieces if found.cut else ())
-            self._tinted = found.key
-        self._faces.draw_over(eye, hue_colors(self._looks.tint))
+        faces = self._made.of("faces", None, lambda: ColoredFaces(self._pose.points))
+        # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
+        self._made.of("tint", found.key, lambda: faces.fill(found.pieces if found.cut else ()))
+        faces.draw_over(eye, hue_colors(self._looks.tint))
 
     def draw_on_screen(self) -> None:
-        """Draw over the region: text and legends."""
         picture = self._picture()
         if not picture.front:
             return
@@ -200,8 +182,6 @@ class Overlay:
                 above = (left, high, width, height - (high - bottom))
                 draw_legends([Legend(corner.FIRST_LINES)], above, scale, on_left=True)
             draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
-
-    # What there is to draw
 
     def _current_sheets(self, picture: Picture) -> list[Sheet]:
         """Return the sheets from the lowest to the highest, those made anew whose content has changed."""
@@ -219,12 +199,13 @@ class Overlay:
         ]
 
     def _sheet(self, name: str, key: object, add: Callable[[Sheet, object], None], what: object) -> Sheet:
-        if name not in self._sheets or self._sheets[name][0] != key:
+        def make() -> Sheet:
             sheet = Sheet(self._pose)
             add(sheet, what)
             sheet.finish()
-            self._sheets[name] = key, sheet
-        return self._sheets[name][1]
+            return sheet
+
+        return self._made.of(name, key, make)
 
     def _add_bands(self, sheet: Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:
         for points, attracts in strokes:
@@ -233,11 +214,10 @@ class Overlay:
     def _add_gaps(self, sheet: Sheet, found: Islands | None) -> None:
         """Add what keeps islands from separating: ends of seams, and the way to what they nearly meet."""
         for gap in () if found is None else found.gaps:
-            sheet.path(self._looks.gap, gap.path)
+            sheet.edges(self._looks.gap, pairwise(gap.path))
             sheet.dot(self._looks.open_end, gap.end)
 
     def _add_kept(self, sheet: Sheet, picture: Picture) -> None:
-        """Add the kept wires: many, and seldom changed."""
         looks = self._looks
         kept = [shown for shown in picture.wires if shown.role is Role.KEPT]
         for shown in kept:
@@ -249,7 +229,6 @@ class Overlay:
             sheet.curve(looks.kept if shown.wire.marks else looks.clear, shown.wire.points)
 
     def _add_live(self, sheet: Sheet, picture: Picture) -> None:
-        """Add what changes with every move of the cursor."""
         looks = self._looks
         for shown in picture.wires:
             if shown.role is Role.HOVERED:

@@ -45,7 +45,6 @@ def colors(parts: ArrayLike, of: ColorMap) -> NDArray[np.float64]:
 
 
 def steps(of: ColorMap, count: int, opacity: float = 1.0) -> list[Color]:
-    """Return a map as so many colors, both ends among them."""
     return [(r, g, b, opacity) for r, g, b in colors(np.linspace(0.0, 1.0, count), of).tolist()]
 
 
