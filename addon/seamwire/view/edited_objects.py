@@ -52,9 +52,8 @@ class EditedObjects:
         self.sweeper = Timer(self.sweep)
         self.chain: Callable[[], None] | None = None
         self.covered = False  # whether something else is drawn in place of the objects
-        self._changed = self._stale_since = (
-            0.0  # when Blender told of changes last, and when the first view became stale
-        )
+        self._changed = 0.0  # when Blender told of a change last
+        self._stale_since = 0.0
         self._shown: list[tuple[object, ...]] | None = None  # what `show` has shown
 
     # What there is
@@ -134,12 +133,10 @@ class EditedObjects:
     def clear(self, *_: object) -> None:
         for view in tuple(self._views):
             self._remove(view)
-        self._was_front = ""
-        self._waits = False
         self._states.clear()
         self.timer.stop()
         self.sweeper.stop()
-        self.chain, self.covered = None, False
+        self._was_front, self._waits, self.chain, self.covered = "", False, None, False
         failures.clear()
 
     # Pointing
@@ -213,24 +210,24 @@ class EditedObjects:
             view.mesh.follow(settings)
             view.measure()
 
-    def make_layers(self) -> None:
-        for view in self._views:
-            view.make_layers()
-        if self._views:
-            self.on_settings()
-            self.redraw()
-
     def on_settings(self) -> None:
         if self._views:
             self.follow_settings()
             self.watch()
+
+    def make_layers(self) -> None:
+        for view in self._views:
+            view.make_layers()
+        self.on_settings()
+        self.redraw()
 
     def refresh(self, *_: object) -> None:
         """Read changed meshes again, and forget meshes with a new topology. A chain looks after its objects itself."""
         if self.chain:
             return
         for view in tuple(self._views):
-            view.follow_name()
+            if view.exists:
+                view.name = view.obj.name_full
             obj = bpy.data.objects.get(view.name)
             if obj is None or obj.type != "MESH":
                 self._remove(view)

@@ -13,6 +13,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
+from ..core.picking.picker import Camera
 from .theme import HALO, Color, Style
 from .viewport import clipping_planes
 
@@ -85,6 +86,8 @@ class Eye:
         self._model_view = region_3d.view_matrix @ model
         self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
         self._planes = clipping_planes(region_3d) @ np.array(model, dtype=np.float64)
+        # Projects (n, 3) to (n, 2) pixels from the lower left corner of the region; NaN behind the viewer.
+        self.on_screen = Camera(*self.size, self.to_clip).to_pixels
         # The view's clipping border in the coordinates of what is drawn. Empty without a border.
         self.border = self._planes.tobytes()
         # The same as long as all is seen at the same place on the screen.
@@ -117,12 +120,6 @@ class Eye:
     def pixel_sizes(self, depths: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how large a pixel is at depths (view coordinates, negative ahead)."""
         return np.full_like(depths, self._pixel) if self.is_orthographic else self._pixel * np.abs(depths)
-
-    def on_screen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Project (n, 3) to (n, 2) pixels from the lower left corner of the region; NaN behind the viewer."""
-        clip = points @ self.to_clip[:, :3].T + self.to_clip[:, 3]
-        w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
-        return (clip[:, :2] / w + 1.0) * 0.5 * self.size
 
 
 class Within:

@@ -244,10 +244,8 @@ class ObjectView:
 
     def follow_pose(self) -> None:
         """Let picker and overlay follow the pose in which the mesh is seen."""
-        if not self._has_moved:
-            return
-        self._has_moved = False
-        if self.pose.follow(self.obj):
+        has_moved, self._has_moved = self._has_moved, False
+        if has_moved and self.pose.follow(self.obj):
             self._posed_picker = None
             self.overlay.repose()
 
@@ -286,7 +284,7 @@ class ObjectView:
         session.use_crests(self.crest_view.crests, options.show_crests)
 
     def _source(self) -> End | None:
-        """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
+        """Return what `Layer.follow` calls the source."""
         pick = self.session.seed_place
         if pick is None and self.mesh.alive():
             pick = self.mesh.cage.active_vertex()
@@ -330,10 +328,6 @@ class ObjectView:
 
     def is_current(self, obj: bpy.types.Object) -> bool:
         return not self.stale and self.mesh.alive() and self.obj == obj
-
-    def follow_name(self) -> None:
-        if self.exists:
-            self.name = self.obj.name_full
 
     def snap(self, view: Camera, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.

@@ -300,18 +300,15 @@ def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, fl
     """Return what of a region no toolbar, sidebar, header or panel lies over: left, bottom, width, height."""
     left, bottom, right, top = 0, 0, region.width, region.height
     for other in area.regions:
-        if other.type == "WINDOW" or other.width <= 1 or other.height <= 1:
-            continue
         x, y = other.x - region.x, other.y - region.y
-        if x >= region.width or y >= region.height or x + other.width <= 0 or y + other.height <= 0:
+        is_seen = other.type != "WINDOW" and other.width > 1 and other.height > 1
+        if not is_seen or x >= region.width or y >= region.height or x + other.width <= 0 or y + other.height <= 0:
             continue
         if other.type == "TOOLS":
             left = max(left, x + other.width)
         elif other.type == "UI":
             right = min(right, x)
-        elif other.type == "HUD":
-            bottom = max(bottom, y + other.height)
-        elif y > region.height // 2:
+        elif other.type != "HUD" and y > region.height // 2:
             top = min(top, y)
         else:
             bottom = max(bottom, y + other.height)

@@ -235,25 +235,25 @@ class DoubleClicks:
 
     def __init__(self) -> None:
         self._pressed: tuple[int, int] | None = None
-        self._released: tuple[str, float, int, int] | None = None
+        self._released: tuple[str, float, tuple[int, int]] | None = None
 
     def is_second(self, event: Event, now: float, preferences: Any) -> bool:  # noqa: ANN401 - Blender's
         """Whether an event is the second press of a double click, `now` in seconds. To be asked of every event of the mouse's buttons."""
         if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
             return False
-        pressed, self._pressed = self._pressed, (event.mouse_x, event.mouse_y) if event.value == "PRESS" else None
-        if event.value == "RELEASE":
-            # A drag does not count as a first click.
-            moved = max(abs(event.mouse_x - pressed[0]), abs(event.mouse_y - pressed[1])) if pressed else 0
-            here = (event.type, now, event.mouse_x, event.mouse_y)
-            self._released = here if moved <= drag_threshold(event, preferences) else None
-            return False
+        here = event.mouse_x, event.mouse_y
+        pressed, self._pressed = self._pressed, here if event.value == "PRESS" else None
         released, self._released = self._released, None
-        if released is None or event.value != "PRESS" or released[0] != event.type:
+
+        def is_near(other: tuple[int, int]) -> bool:
+            away = max(abs(here[0] - other[0]), abs(here[1] - other[1]))
+            return away <= drag_threshold(event, preferences)
+
+        if event.value == "RELEASE" and (pressed is None or is_near(pressed)):  # a drag does not count as a first click
+            self._released = event.type, now, here
+        if event.value != "PRESS" or released is None or released[0] != event.type:
             return False
-        soon = (now - released[1]) * 1000.0 < preferences.inputs.mouse_double_click_time
-        away = max(abs(event.mouse_x - released[2]), abs(event.mouse_y - released[3]))
-        return soon and away <= drag_threshold(event, preferences)
+        return (now - released[1]) * 1000.0 < preferences.inputs.mouse_double_click_time and is_near(released[2])
 
 
 def drag_threshold(event: Event, preferences: Any) -> float:  # noqa: ANN401 - Blender's
