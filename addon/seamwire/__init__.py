@@ -37,7 +37,6 @@ _PARTS = (
     "operators.draw",
     "view.handlers",
     "operators.hover",
-    "ui.keymap",
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",

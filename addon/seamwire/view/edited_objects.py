@@ -379,7 +379,7 @@ class EditedObjects:
             self.watch()
         if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
             for view in self._drawn(context.space_data):
-                failures.attempt(("draw", view.name), getattr(view.overlay, part))
+                failures.attempt(("draw", view.name), partial(view.draw, part))
 
     def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
         for obj in _in_edit_mode():

@@ -8,7 +8,6 @@ import threading
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
-from weakref import ref
 
 import bpy
 import numpy as np
@@ -166,15 +165,7 @@ class ObjectView:
         # The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
-        own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
-        self.overlay = Overlay(
-            lambda: own().picture,
-            lambda: own().obj,
-            self.pose,
-            arrays.to_object,
-            preferences=chosen.preferences(),
-            layers=self._layers,
-        )
+        self.overlay = Overlay(self.pose, arrays.to_object, preferences=chosen.preferences(), layers=self._layers)
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full  # the last one that is known
         self.edited_until: float | None = None  # when it was found out that it is not edited
@@ -206,6 +197,10 @@ class ObjectView:
             stroke=self.stroke,
             front=self._front,
         )
+
+    def draw(self, part: str) -> None:
+        """Draw by a method of overlays in the view that Blender is drawing now."""
+        getattr(self.overlay, part)(self.picture, self.obj)
 
     def close(self) -> None:
         self.session.offering.edges.stop_search()

@@ -102,25 +102,19 @@ class Sheet:
 
 
 class Overlay:
-    """The drawing of pictures over one object.
+    """Draws pictures over one object.
 
-    `picture` returns what is to be seen now, and `obj` the object, because Blender may replace it. `to_object`, (3, 3), takes places of the
-    pose to object coordinates. The `layers` lie below the wires, and the list may change.
+    `to_object`, (3, 3), takes places of the pose to object coordinates. The `layers` lie below the wires, and the list may change.
     """
 
     def __init__(
         self,
-        picture: Callable[[], Picture],
-        obj: Callable[[], bpy.types.Object],
         pose: Pose,
         to_object: NDArray[np.float64],
         *,
         preferences: object | None = None,
         layers: Sequence[Layer] = (),
     ) -> None:
-        self._picture = picture
-        self._obj = obj
-        self._name = obj().name_full
         self._pose = pose
         self._preferences = preferences
         self._layers = layers
@@ -133,14 +127,13 @@ class Overlay:
         self._made.clear()
         list(self._ask_layers("repose"))
 
-    def draw_in_scene(self) -> None:
-        picture = self._picture()
+    def draw_in_scene(self, picture: Picture, obj: bpy.types.Object) -> None:
         looks = looks_of(bpy.context.preferences.themes[0].view_3d, self._preferences)
         if looks is not self._looks:
             self._looks = looks
             self._made.clear()
         sheets = self._current_sheets(picture)
-        eye = Eye(bpy.context.region_data, self._obj().matrix_world @ self._to_object)
+        eye = Eye(bpy.context.region_data, obj.matrix_world @ self._to_object)
         if not any(self._ask_layers("draw_heat", eye)):
             self._draw_tint(eye, picture.islands)
         list(self._ask_layers("draw_lines", eye))
@@ -155,7 +148,7 @@ class Overlay:
     def _ask_layers(self, method: str, *arguments: object) -> Iterator[object]:
         """Call a method of each layer, and yield what it returns. A layer that fails yields None, and the others are still drawn."""
         for number, layer in enumerate(self._layers):
-            part = ("layer drawn", self._name, number, method)
+            part = ("layer drawn", id(self), number, method)
             yield failures.attempt(part, partial(getattr(layer, method), *arguments))
 
     def _draw_tint(self, eye: Eye, found: Islands | None) -> None:
@@ -166,8 +159,7 @@ class Overlay:
         self._made.of("tint", found.key, lambda: faces.fill(found.pieces if found.cut else ()))
         faces.draw_over(eye, hue_colors(self._looks.tint))
 
-    def draw_on_screen(self) -> None:
-        picture = self._picture()
+    def draw_on_screen(self, picture: Picture, _obj: bpy.types.Object) -> None:
         if not picture.front:
             return
         room = free_room(bpy.context.area, bpy.context.region)
