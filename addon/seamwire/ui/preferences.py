@@ -115,8 +115,7 @@ def _add_defaults() -> None:
     bpy.types.WindowManager.seamwire_defaults = bpy.props.PointerProperty(type=SeamwireDefaults)
 
 
-def _remove_defaults() -> None:
-    del bpy.types.WindowManager.seamwire_defaults
-
-
-register, unregister = together(*classes(SeamwireDefaults, SeamwirePreferences), (_add_defaults, _remove_defaults))
+register, unregister = together(
+    *classes(SeamwireDefaults, SeamwirePreferences),
+    (_add_defaults, lambda: delattr(bpy.types.WindowManager, "seamwire_defaults")),
+)

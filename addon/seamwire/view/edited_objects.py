@@ -22,7 +22,7 @@ from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from ..terms.choices import Along
     from .viewport import Place
@@ -377,18 +377,15 @@ class EditedObjects:
             failures.retry()
         if not self.chain and (is_new or (has_tool and self._unread() is not None)):
             self.watch()
-        if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
-            for view in self._drawn(context.space_data):
-                failures.attempt(("draw", view.name), partial(view.draw, part))
-
-    def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
+        if not (has_tool or self.chain) or self.covered or not context.space_data.overlay.show_overlays:
+            return
+        # A mesh that changes for a long time is shown after it was read again.
+        shows_stale = self.chain or time.monotonic() - self._stale_since < 2.0 * _PAUSE
         for obj in _in_edit_mode():
             view = self._view_of(obj)
-            if view is None or not view.mesh.alive() or not obj.visible_in_viewport_get(space):
-                continue
-            # A mesh that changes for a long time is shown after it was read again.
-            if self.chain or not view.stale or time.monotonic() - self._stale_since < 2.0 * _PAUSE:
-                yield view
+            is_seen = view is not None and view.mesh.alive() and obj.visible_in_viewport_get(context.space_data)
+            if is_seen and (shows_stale or not view.stale):
+                failures.attempt(("draw", view.name), partial(view.draw, part))
 
 
 def _changed_meshes(depsgraph: bpy.types.Depsgraph) -> set[bpy.types.Mesh]:

@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from ..core.picking.picker import Camera
     from ..core.sketch.picture import Picture
     from ..core.sketch.sketch import Sketch
-    from ..core.solver.solver import End
     from ..terms.options import Options
     from .layers import Layer
     from .viewport import Place
@@ -273,19 +272,15 @@ class ObjectView:
     def _follow_layers(self) -> None:
         session, options = self.session, self.options
         self.crest_view.is_wanted = options.snap or session.offering.offers.wanted
-        source, strokes = self._source(), session.engines.strokes
-        for key, layer in self._working_layers():
-            failures.attempt(key, partial(layer.follow, options, source, strokes))
-        session.use_crests(self.crest_view.crests, options.show_crests)
-
-    def _source(self) -> End | None:
-        """Return what `Layer.follow` calls the source."""
-        pick = self.session.seed_place
+        pick = session.seed_place
         if pick is None and self.mesh.alive():
             pick = self.mesh.cage.active_vertex()
         if pick is None:
-            pick = next(reversed(self.session.seeds()), None)
-        return None if pick is None else for_live(pick, "SURFACE")
+            pick = next(reversed(session.seeds()), None)
+        source, strokes = None if pick is None else for_live(pick, "SURFACE"), session.engines.strokes
+        for key, layer in self._working_layers():
+            failures.attempt(key, partial(layer.follow, options, source, strokes))
+        session.use_crests(self.crest_view.crests, options.show_crests)
 
     @property
     def busy(self) -> bool:

@@ -134,8 +134,12 @@ class Overlay:
             self._made.clear()
         sheets = self._current_sheets(picture)
         eye = Eye(bpy.context.region_data, obj.matrix_world @ self._to_object)
-        if not any(self._ask_layers("draw_heat", eye)):
-            self._draw_tint(eye, picture.islands)
+        found = picture.islands
+        if not any(self._ask_layers("draw_heat", eye)) and found is not None and looks.tint > 0.0:
+            faces = self._made.of("faces", None, lambda: ColoredFaces(self._pose.points))
+            # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
+            self._made.of("tint", found.key, lambda: faces.fill(found.pieces if found.cut else ()))
+            faces.draw_over(eye, hue_colors(looks.tint))
         list(self._ask_layers("draw_lines", eye))
         xray = picture.options.xray
         for hidden in (True, False):
@@ -150,14 +154,6 @@ class Overlay:
         for number, layer in enumerate(self._layers):
             part = ("layer drawn", id(self), number, method)
             yield failures.attempt(part, partial(getattr(layer, method), *arguments))
-
-    def _draw_tint(self, eye: Eye, found: Islands | None) -> None:
-        if found is None or self._looks.tint <= 0.0:
-            return
-        faces = self._made.of("faces", None, lambda: ColoredFaces(self._pose.points))
-        # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
-        self._made.of("tint", found.key, lambda: faces.fill(found.pieces if found.cut else ()))
-        faces.draw_over(eye, hue_colors(self._looks.tint))
 
     def draw_on_screen(self, picture: Picture, _obj: bpy.types.Object) -> None:
         if not picture.front:

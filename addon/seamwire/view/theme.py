@@ -13,8 +13,6 @@ import numpy as np
 from ..core.islands.islands import HUES, PLACES
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import bpy
     from numpy.typing import ArrayLike, NDArray
 
@@ -124,20 +122,16 @@ _looks = lru_cache(maxsize=2)(Looks)
 def looks_of(theme: bpy.types.ThemeView3D, preferences: object | None = None) -> Looks:
     """Return the styles for the theme of the 3D view and the add-on's preferences, the same object until one of them changes."""
     # Blender 5 has shortened the name.
-    kept = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
+    seam = theme.seam if hasattr(theme, "seam") else theme.edge_seam
+    hue, saturation, value = colorsys.rgb_to_hsv(*seam[:3])
+    # As bright as it can be in its hue: on a surface thin lines look darker than they are.
+    kept = (*colorsys.hsv_to_rgb(hue, min(saturation, 0.85), 1.0 if saturation > 0.1 else value), 1.0)
     names = ("line_width", "tint", "text")
     return _looks(kept, **{name: getattr(preferences, name) for name in names if hasattr(preferences, name)})
 
 
 def faint(color: Color, opacity: float) -> Color:
     return (*color[:3], color[3] * opacity)
-
-
-def vivid(color: Sequence[float]) -> Color:
-    """Return a color of the theme as bright as it can be in its hue: on a surface thin lines look darker than they are."""
-    hue, saturation, value = colorsys.rgb_to_hsv(*color[:3])
-    red, green, blue = colorsys.hsv_to_rgb(hue, min(saturation, 0.85), 1.0 if saturation > 0.1 else value)
-    return red, green, blue, 1.0
 
 
 def hue_colors(opacity: float) -> list[Color]:
