@@ -51,8 +51,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     The first three are for reading the mesh, for starting the computation in other threads, and until a seed can be given. The others are
     from the click to the first wire, from the click to both final wires, and from a move of the cursor to the next wire.
     """
-    from seamwire.core.picking.camera import Camera
-    from seamwire.core.picking.picker import Picker
+    from seamwire.core.picking.picker import Camera, Picker
     from seamwire.core.sketch.sketch import Sketch
     from seamwire.core.solver.solver import LiveMaker
     from seamwire.mesh import edit_mesh

@@ -18,8 +18,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.wires import Wire
-from seamwire.core.picking.camera import Camera
-from seamwire.core.picking.picker import Picker
+from seamwire.core.picking.picker import Camera, Picker
 from seamwire.terms.options import Options
 
 SIDES = (317, 513, 1025)

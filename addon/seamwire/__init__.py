@@ -37,14 +37,11 @@ _PARTS = (
     "operators.draw",
     "view.handlers",
     "operators.hover",
-    "ui.keymap",
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",
     "ui.companions",
 )
-
-
 _FOR_SCRIPTS = ("mark", "suggest", "unwrap", "cut")
 
 
@@ -57,19 +54,18 @@ def __getattr__(name: str) -> object:
 
 def register() -> None:
     """Add the preferences, the operators, the keys, the tool and the menu entries. If a part fails, remove the others again."""
-    _parts()[0]()
+    _changes()[0]()
 
 
 def unregister() -> None:
     """Remove all of them, and drop prepared meshes."""
-    _parts()[1]()
+    _changes()[1]()
 
 
-def _parts() -> tuple[Callable[[], None], Callable[[], None]]:
-    together = import_module(".mesh.registration", __package__).together
-    check = import_module(".mesh.versions", __package__).check
-    parts = (import_module(f".{part}", __package__) for part in _PARTS)
-    return together((check, _forget), *((part.register, part.unregister) for part in parts))
+def _changes() -> tuple[Callable[[], None], Callable[[], None]]:
+    parts = [import_module(f".{part}", __package__) for part in ("mesh.registration", "mesh.versions", *_PARTS)]
+    registration, versions, *others = parts
+    return registration.together((versions.check, _forget), *((part.register, part.unregister) for part in others))
 
 
 def _forget() -> None:

@@ -29,7 +29,6 @@ _NAMES = {
     "core.base.mesh_arrays": "Arrays",
     "core.base.native": "load",
     "core.base.newest": "Newest",
-    "core.fields.color_maps": "ColorMap colors steps",
     "core.network.drawn": "Drawn",
     "core.network.picks": "Edge Pick",
     "core.network.strokes": "Stroke for_library on_mesh",
@@ -50,7 +49,7 @@ _NAMES = {
     "view.gpu_draw": "ColoredFaces Eye Lines Within blended draw_over whole",
     "view.layers": "Layer Legend draw_legends",
     "view.overlay": "free_room",
-    "view.theme": "Color Style",
+    "view.theme": "Color ColorMap Style colors steps",
     "words.reports": "count",
 }
 PLACES = {name: module for module, names in _NAMES.items() for name in names.split()}

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parent.parent / "seamwire"
 LAB = ROOT.parent / "seamwire_lab"
 NETWORKS = ROOT.parent / "seamwire_networks"
 BATCH = ROOT.parents[1] / "batch" / "seamwire_batch"
-ROOMS = ("base", "network", "solver", "storage", "seams", "islands", "fields", "offers", "sketch", "picking")
+ROOMS = ("base", "network", "solver", "storage", "seams", "islands", "offers", "sketch", "picking")
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (
     "terms",

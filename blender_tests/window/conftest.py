@@ -7,7 +7,7 @@ import desk as desks
 import pytest
 import ui as driver
 from seamwire.mesh.settings import preferences
-from seamwire.words.notices import Notice, Notices
+from seamwire.words.reports import Notice, Notices
 
 
 def watched(hand: driver.Ui) -> Iterator[driver.Ui]:

@@ -123,9 +123,9 @@ def test_a_new_window_draws(halves: Desk, monkeypatch: pytest.MonkeyPatch) -> No
     drawn: Counter[int] = Counter()
     draw = Overlay.draw_in_scene
 
-    def counted(overlay: Overlay) -> None:
+    def counted(overlay: Overlay, *given: object) -> None:
         drawn[bpy.context.window.as_pointer()] += 1
-        draw(overlay)
+        draw(overlay, *given)
 
     monkeypatch.setattr(Overlay, "draw_in_scene", counted)
     with second_window(halves.ui) as other:

@@ -18,7 +18,7 @@ from seamwire.core.sketch.sketch import Sketch
 from seamwire.operators.chain_state import Stage
 from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited
-from seamwire.words.notices import Notice
+from seamwire.words.reports import Notice
 from slow import Slow
 
 ROW, LONG_ROW = chain(*range(36, 41)), chain(*range(36, 45))

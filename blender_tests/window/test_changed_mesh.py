@@ -12,7 +12,7 @@ import pytest
 from desk import RED, Desk, draw, shows, undo_steps
 from scene import chain, changing, seams
 from seamwire.mesh.settings import settings
-from seamwire.words.notices import Notice
+from seamwire.words.reports import Notice
 
 FIRST = chain(*range(18, 27))
 ROW = chain(*range(36, 45))

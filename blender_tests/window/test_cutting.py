@@ -15,7 +15,7 @@ from seamwire.mesh import cut
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
-from seamwire.words.notices import Notice, Notices
+from seamwire.words.reports import Notice, Notices
 from stored import agree, chains, session_on
 
 

@@ -18,8 +18,8 @@ from desk import Desk, draw, grid, half_cone, leave, near
 from lab import disable_lab, enable_lab, of_lab, part
 from mathutils import Vector
 from scene import add_suzanne
-from seamwire.core.fields.color_maps import colors
 from seamwire.view.edited_objects import edited
+from seamwire.view.theme import colors
 
 VIEWS = (
     ("heat", "STRENGTH"),

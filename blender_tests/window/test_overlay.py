@@ -54,8 +54,8 @@ class Said:
         self._said: dict[str, object] = {}
 
     @property
-    def drawing(self) -> Picture:
-        return self.picture  # it has the number of the network, too
+    def network_revision(self) -> int:
+        return self.picture.network_revision
 
     @property
     def wires(self) -> tuple[Wire, ...]:
@@ -135,14 +135,15 @@ class Sight:
 
     def draw(self, part: str) -> None:
         try:
-            getattr(self.overlay, part)()
+            getattr(self.overlay, part)(self.look(), self.obj)
         except Exception as error:
             self.errors.append(error)
 
     def make(self, **options: object) -> Overlay:
-        return Overlay(
-            lambda: self.session.picture, lambda: self.obj, Pose(self.arrays), self.arrays.to_object, **options
-        )
+        return Overlay(Pose(self.arrays), self.arrays.to_object, **options)
+
+    def look(self) -> Picture:
+        return self.session.picture
 
     def wire(self, *vertices: int, along: str = "EDGES", marks: bool = True, points: object = None) -> Wire:
         curve = self.arrays.points[list(vertices)] if points is None else np.array(points)
@@ -159,7 +160,7 @@ class Sight:
             islands.poll()
             return replace(self.session.picture, islands=islands.newest)
 
-        self.overlay = Overlay(look, lambda: self.obj, Pose(self.arrays), self.arrays.to_object)
+        self.overlay, self.look = self.make(), look
 
     def pixels(self, **said: object) -> NDArray[np.float32]:
         self.session.say(**said)

@@ -17,10 +17,9 @@ from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.pose import Pose
 from seamwire.mesh.settings import settings
-from seamwire.view.crest_view import CrestView
 from seamwire.view.edited_objects import EditedObjects, edited
+from seamwire.view.layers import CrestView, StretchHeat
 from seamwire.view.object_view import ObjectView
-from seamwire.view.stretch_heat import StretchHeat
 
 
 @pytest.fixture

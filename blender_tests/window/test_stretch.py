@@ -17,8 +17,8 @@ from scene import chain, changing, seams
 from seamwire.core.islands.stretch import Stretch
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
-from seamwire.view.stretch_heat import HOT, StretchHeat, heat_colors
-from seamwire.words.notices import Notice
+from seamwire.view.layers import HOT, StretchHeat, heat_colors
+from seamwire.words.reports import Notice
 
 LEFT, RIGHT = (20, 30), (24, 34)
 """Two corners of a face in the left half of the grid, and of one in the right half."""

@@ -31,7 +31,7 @@ from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
 from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
-from seamwire.words.search_report import NOTHING_TO_UNDO, OTHER_KEY
+from seamwire.words.reports import NOTHING_TO_UNDO, OTHER_KEY
 from stored import island_count
 
 

@@ -32,7 +32,7 @@ from seamwire.view import edited_objects
 from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.object_view import ObjectView
 from seamwire.view.overlay import Overlay
-from seamwire.words.notices import Notice
+from seamwire.words.reports import Notice
 
 ROW = chain(*range(36, 45))
 

@@ -20,7 +20,7 @@ from path_traffic import (
     traffic,
     vertex_areas,
 )
-from seamwire.core.fields.color_maps import colors
+from seamwire.view.theme import colors
 from seamwire_lab.color_tables import PURPLE_ORANGE
 from seamwire_lab.fields import spread
 

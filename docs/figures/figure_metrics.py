@@ -11,7 +11,7 @@ from figure_models import PATH_ERROR
 from figure_sheet import Bar, Key, Panel, sheet
 from figure_stage import INK
 from figure_studio import RIDGE, VALLEY, anisotropy_bar
-from seamwire.core.fields.color_maps import colors
+from seamwire.view.theme import colors
 from seamwire_lab.color_tables import PURPLE_ORANGE, VIRIDIS
 from seamwire_lab.fields import spread
 

@@ -11,7 +11,7 @@ from figure_drawn import Drawn, network_of, spread_colors
 from figure_models import Model
 from figure_sheet import Bar, with_inset
 from figure_stage import INK, SEED, Stage
-from seamwire.core.fields.color_maps import STRETCH, colors
+from seamwire.view.theme import STRETCH, colors
 from seamwire_lab.color_tables import VIRIDIS
 from seamwire_lab.fields import Paths, spread
 

@@ -23,7 +23,7 @@ from ..core.storage import serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found
 from ..terms.options import PLACED, SCANNED, Options
-from ..words.notices import Notices
+from ..words.reports import Notices
 from . import edit_mesh
 from .settings import mirror_axes, snapshot
 
@@ -62,13 +62,13 @@ _taken_cuts = CutMemory()
 """Closed cuts that were taken since the file was opened, to be bent after they were cut."""
 
 
-def forget_records() -> None:
+def forget_records(*_: object) -> None:
     global _archive
     _archive = Archive()
     _taken_cuts.clear()
 
 
-def complete_records() -> None:
+def complete_records(*_: object) -> None:
     """Store the missing records of all meshes. Blender's undo restores labels, but not records."""
     if not (_archive.wires or _archive.strokes):
         return

@@ -37,9 +37,7 @@ from ..core.seams.seam_plan import (
 )
 from ..terms.choices import FINISHES
 from ..terms.options import CLAMP_PERCENTILE, STRENGTHS
-from ..words.notices import Notices
-from ..words.reports import ALL_HIDDEN
-from ..words.search_report import Outcome
+from ..words.reports import ALL_HIDDEN, Notices, Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import count_islands, in_scene, labels_of, maps_of, to_scene

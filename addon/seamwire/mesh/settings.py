@@ -9,7 +9,7 @@ import bpy
 
 from ..terms.choices import items
 from ..terms.options import PLACED, SETTINGS, Options
-from ..words.notices import Notices
+from ..words.reports import Notices
 from .registration import classes, together
 
 if TYPE_CHECKING:

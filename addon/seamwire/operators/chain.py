@@ -20,8 +20,7 @@ from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
 from ..words.hints import Status, hints
 from ..words.keys import DoubleClicks
-from ..words.notices import Notices
-from ..words.reports import count, summary
+from ..words.reports import Notices, count, summary
 from . import keymaps, undo_steps
 from .after_chain import unwrap_after_chain
 from .chain_state import TRANSITIONS, Cue, Stage, running

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.network.network import Snap
-    from ..core.picking.camera import Camera
+    from ..core.picking.picker import Camera
     from ..view.object_view import ObjectView
     from ..view.viewport import Place
     from ..words.keys import Event

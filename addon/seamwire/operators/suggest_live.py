@@ -19,7 +19,7 @@ from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.corner import FoundMap, rows_of_parts
 from ..words.keys import MODIFIER_KEYS, Action
-from ..words.search_report import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
+from ..words.reports import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
 from . import keymaps
 
 if TYPE_CHECKING:

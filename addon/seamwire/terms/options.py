@@ -149,12 +149,10 @@ class Options:
 
     @property
     def marking(self) -> bool:
-        """Whether wires mark seams."""
         return not self.clear
 
     @property
     def into_faces(self) -> bool:
-        """Whether new wires across the surface are to be cut into the faces."""
         return self.marking and FINISHES[self.finish].cuts
 
     @property
@@ -163,7 +161,6 @@ class Options:
 
     @property
     def strength(self) -> float:
-        """How strongly wires follow the shape, for the way that they run."""
         return self.strengths[self.along]
 
     @property
@@ -188,5 +185,4 @@ SETTINGS: Mapping[str, Setting] = {
 
 
 def strength_name(along: Along) -> str:
-    """Return the name of the option that holds the strength for one way of running."""
     return f"strength_{along.lower()}"

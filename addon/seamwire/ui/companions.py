@@ -45,25 +45,17 @@ def join(addon: ModuleType) -> None:
 
 
 def leave(addon: ModuleType) -> None:
-    """End the operators of an add-on, and remove its parts."""
     for operator in tuple(running):
         if type(operator).__module__.startswith(f"{addon.__name__}."):
             operator.end()
     _joined.pop(addon, lambda: None)()
 
 
-def _waiting() -> list[ModuleType]:
-    named = [module for name, module in tuple(sys.modules.items()) if name.rpartition(".")[2].startswith("seamwire_")]
-    return [
-        module for module in named if getattr(module, "__addon_enabled__", False) and hasattr(module, "SEAMWIRE_PARTS")
-    ]
-
-
 def register() -> None:
-    """Let add-ons join that were enabled before."""
-    together(*((partial(join, addon), partial(leave, addon)) for addon in _waiting()))[0]()
+    named = [module for name, module in tuple(sys.modules.items()) if name.rpartition(".")[2].startswith("seamwire_")]
+    waiting = [one for one in named if getattr(one, "__addon_enabled__", False) and hasattr(one, "SEAMWIRE_PARTS")]
+    together(*((partial(join, addon), partial(leave, addon)) for addon in waiting))[0]()
 
 
 def unregister() -> None:
-    """Let all of them leave."""
     together(*((None, partial(leave, addon)) for addon in _joined))[1]()

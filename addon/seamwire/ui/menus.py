@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 
@@ -19,89 +19,72 @@ from ..terms.options import SETTINGS
 from ..words.corner import STEPS
 from .toolbar import VIEWS
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
 CONTEXT_MENU = "VIEW3D_MT_edit_mesh_context_menu"
 """Blender's menu that has only the entry for the tool."""
 
 
-class VIEW3D_MT_seamwire(bpy.types.Menu):
-    """Draw UV seams, or let Seamwire suggest them"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire"
-    bl_label = "Seamwire"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Show what artists need most, and the submenus for everything else."""
-        layout = self.layout
-        layout.operator("mesh.seamwire_choose_tool")
-        layout.operator("mesh.seamwire_suggest")
-        layout.operator("mesh.seamwire_close_gaps")
-        layout.operator("mesh.seamwire_unwrap")
-        layout.separator()
-        for menu in SUBMENUS:
-            layout.menu(menu)
+def _menu(name: str, label: str, tooltip: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> type:
+    return type(name, (bpy.types.Menu,), {"__doc__": tooltip, "bl_idname": name, "bl_label": label, "draw": draw})
 
 
-class VIEW3D_MT_seamwire_finish(bpy.types.Menu):
-    """Make seams run exactly where wires across the surface run"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_finish"
-    bl_label = "Finish"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        self.layout.operator_enum("mesh.seamwire_finish", "finish")
-
-
-class VIEW3D_MT_seamwire_network(bpy.types.Menu):
-    """Turn seams into wires, or save, load, transfer and repeat wires"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_network"
-    bl_label = "Network"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Show what is done with all wires of a mesh. Seamwire Networks adds its entries."""
-        self.layout.operator("mesh.seamwire_take_over", text="From Seams")
-        if not hasattr(bpy.types, "MESH_OT_seamwire_transfer"):
-            self.layout.label(
-                text="To save, load, transfer and repeat wires, enable Seamwire Networks in the preferences"
-            )
+def _draw_all(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    """Show what artists need most, and the submenus for everything else."""
+    for name in ("choose_tool", "suggest", "close_gaps", "unwrap"):
+        menu.layout.operator(f"mesh.seamwire_{name}")
+    menu.layout.separator()
+    for name in SUBMENUS:
+        menu.layout.menu(name)
 
 
-class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
-    """Select or store the islands that seams make"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_islands"
-    bl_label = "Islands"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        layout = self.layout
-        for which, text in (("TO_CUT", "Select Islands to Cut"), ("WORST", "Select Worst Stretched Island")):
-            layout.operator("mesh.seamwire_select_islands", text=text).which = which
-        layout.separator()
-        for what, name, *_ in ISLAND_ITEMS:
-            layout.operator("mesh.seamwire_store", text=f"Store as {name}").what = what
+def _draw_finish(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.operator_enum("mesh.seamwire_finish", "finish")
 
 
-class VIEW3D_MT_seamwire_views(bpy.types.Menu):
-    """Choose what to show over the mesh"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_views"
-    bl_label = "Views"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout, chosen = self.layout, settings(context)
-        for name, setting in SETTINGS.items():
-            if setting.group == VIEWS:
-                (layout.prop if setting.choices is None else layout.prop_menu_enum)(chosen, name)
+def _draw_network(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    """Show what is done with all wires of a mesh. Seamwire Networks adds its entries."""
+    menu.layout.operator("mesh.seamwire_take_over", text="From Seams")
+    if not hasattr(bpy.types, "MESH_OT_seamwire_transfer"):
+        menu.layout.label(text="To save, load, transfer and repeat wires, enable Seamwire Networks in the preferences")
 
 
-SUBMENUS = (
-    "VIEW3D_MT_seamwire_finish",
-    "VIEW3D_MT_seamwire_network",
-    "VIEW3D_MT_seamwire_islands",
-    "VIEW3D_MT_seamwire_views",
+def _draw_islands(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    for which, text in (("TO_CUT", "Select Islands to Cut"), ("WORST", "Select Worst Stretched Island")):
+        menu.layout.operator("mesh.seamwire_select_islands", text=text).which = which
+    menu.layout.separator()
+    for what, name, *_ in ISLAND_ITEMS:
+        menu.layout.operator("mesh.seamwire_store", text=f"Store as {name}").what = what
+
+
+def _draw_views(menu: bpy.types.Menu, context: bpy.types.Context) -> None:
+    for name, setting in SETTINGS.items():
+        if setting.group == VIEWS:
+            show = menu.layout.prop if setting.choices is None else menu.layout.prop_menu_enum
+            show(settings(context), name)
+
+
+_ALL, *_SUBMENUS = (
+    _menu("VIEW3D_MT_seamwire", "Seamwire", "Draw UV seams, or let Seamwire suggest them", _draw_all),
+    _menu(
+        "VIEW3D_MT_seamwire_finish",
+        "Finish",
+        "Make seams run exactly where wires across the surface run",
+        _draw_finish,
+    ),
+    _menu(
+        "VIEW3D_MT_seamwire_network",
+        "Network",
+        "Turn seams into wires, or save, load, transfer and repeat wires",
+        _draw_network,
+    ),
+    _menu("VIEW3D_MT_seamwire_islands", "Islands", "Select or store the islands that seams make", _draw_islands),
+    _menu("VIEW3D_MT_seamwire_views", "Views", "Choose what to show over the mesh", _draw_views),
 )
+SUBMENUS = tuple(menu.bl_idname for menu in _SUBMENUS)
 
 
 class MESH_OT_seamwire_choose_tool(NeedsEditMode, bpy.types.Operator):
@@ -118,7 +101,7 @@ class MESH_OT_seamwire_choose_tool(NeedsEditMode, bpy.types.Operator):
 
 def _draw_submenu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.separator()
-    menu.layout.menu(VIEW3D_MT_seamwire.bl_idname)
+    menu.layout.menu(_ALL.bl_idname)
 
 
 def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -148,7 +131,6 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
     bl_ui_units_x = 44
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show the first steps and the guide, and below them the keys in two columns."""
         columns = self.layout.split(factor=0.55)
         left, right = columns.column(), columns.column()
         steps = _box(left, "First Steps")
@@ -174,9 +156,7 @@ def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
 
 
 register, unregister = together(
-    *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_network),
-    *classes(VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
-    *classes(VIEW3D_PT_seamwire_help, MESH_OT_seamwire_choose_tool),
+    *classes(_ALL, *_SUBMENUS, VIEW3D_PT_seamwire_help, MESH_OT_seamwire_choose_tool),
     *(menu_entry(name, _draw_submenu) for name in MENUS),
     menu_entry(CONTEXT_MENU, _draw_entry),
 )

@@ -13,8 +13,6 @@ from . import toolbar
 
 
 class _Chosen:
-    """The properties of the preferences."""
-
     tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
     wheel_switches: bpy.props.BoolProperty(
@@ -54,8 +52,6 @@ class SeamwireDefaults(_Chosen, bpy.types.PropertyGroup):
 
 
 class SeamwirePreferences(_Chosen, bpy.types.AddonPreferences):
-    """The preferences that Blender stores."""
-
     bl_idname = ADDON
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -72,7 +68,6 @@ class SeamwirePreferences(_Chosen, bpy.types.AddonPreferences):
 
 
 def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Show the keys, so that users can change them."""
     box = layout.box()
     box.label(text="Keys of the Tool", icon="MOUSE_LMB")
     keys = keymaps.user_keymap(context.window_manager, toolbar.KEYMAP)
@@ -89,9 +84,7 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     box = layout.box()
     box.label(text="Keys While a Chain Is Drawn", icon="MOUSE_LMB")
     last: Action | None = None
-    order = list(Action)
-    items = keymaps.items_of(keys, keymaps.ACTION_OPERATOR)
-    for item in sorted(items, key=lambda item: order.index(Action[item.properties.action])):
+    for item in keymaps.items_of(keys, keymaps.ACTION_OPERATOR):
         action = Action[item.properties.action]
         _draw_key(box, keys, item, action.text if action is not last else "")
         last = action
@@ -122,8 +115,7 @@ def _add_defaults() -> None:
     bpy.types.WindowManager.seamwire_defaults = bpy.props.PointerProperty(type=SeamwireDefaults)
 
 
-def _remove_defaults() -> None:
-    del bpy.types.WindowManager.seamwire_defaults
-
-
-register, unregister = together(*classes(SeamwireDefaults, SeamwirePreferences), (_add_defaults, _remove_defaults))
+register, unregister = together(
+    *classes(SeamwireDefaults, SeamwirePreferences),
+    (_add_defaults, lambda: delattr(bpy.types.WindowManager, "seamwire_defaults")),
+)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tool in the toolbar, and its settings: the most important ones in its header, all in the sidebar and the Properties editor."""
+"""The tool in the toolbar with its keys and its settings: the most important ones in its header, all in the sidebar and in Properties."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.registration import classes, together
-from ..mesh.settings import TOOL, settings, tool_is_active
+from ..mesh.settings import ADDON, TOOL, settings, tool_is_active
 from ..operators import hover, island_operators
-from ..operators.keymaps import HELP_PANEL, NAME
+from ..operators.keymaps import ACTION_OPERATOR, HELP_PANEL, NAME
 from ..terms.choices import ALONG
 from ..terms.options import SETTINGS, strength_name
-from . import keymap
+from ..words.keys import KEYS, Action
 
 if TYPE_CHECKING:
     from ..terms.choices import Along
@@ -24,27 +24,26 @@ VIEWS = "Views"
 """The group of settings that a popover and a menu show."""
 GROUPS = tuple(dict.fromkeys(setting.group for setting in SETTINGS.values() if setting.group != VIEWS))
 """The groups of settings that have panels."""
-_STRENGTHS = {strength_name(along) for along in ALONG}
-_OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
+_STRENGTHS = set(map(strength_name, ALONG))
+_OBJECTS = f"{ADDON}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show the buttons of a job, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
-    jobs = layout.row(align=True)
-    jobs.ui_units_x = 6
+
+    def row(width: float, align: bool = False) -> bpy.types.UILayout:
+        made = layout.row(align=align)
+        made.ui_units_x = width
+        return made
+
+    jobs = row(6, align=True)
     jobs.operator("mesh.seamwire_suggest", text="Suggest")
     jobs.operator("mesh.seamwire_unwrap", text="Unwrap")
-    row = layout.row()
-    row.ui_units_x = 5.5
-    row.prop(chosen, "along", text="")
+    row(5.5).prop(chosen, "along", text="")
     if along == "SURFACE":
-        finish = layout.row()
-        finish.ui_units_x = 3
-        finish.prop(chosen, "finish", text="")
-    strength = layout.row()
-    strength.ui_units_x = 5.5
-    strength.prop(chosen, strength_name(along))
+        row(3).prop(chosen, "finish", text="")
+    row(5.5).prop(chosen, strength_name(along))
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)
     layout.prop(chosen, "clear", text="Clear", toggle=True)
@@ -112,17 +111,11 @@ class VIEW3D_PT_seamwire_overlays(bpy.types.Panel):
     bl_ui_units_x = 13
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show the views, as Blender shows its overlays."""
         self.layout.label(text="Seamwire Views")
         draw_group(context, _split(self.layout), VIEWS)
 
 
 def _panel(name: str) -> type[bpy.types.Panel]:
-    """Return the panel of a group in the sidebar, below the active tool."""
-
-    def poll(_cls: type, context: bpy.types.Context) -> bool:
-        return tool_is_active(context)
-
     def draw(self: bpy.types.Panel, context: bpy.types.Context) -> None:
         draw_group(context, _split(self.layout), name)
 
@@ -134,7 +127,7 @@ def _panel(name: str) -> type[bpy.types.Panel]:
         "bl_label": name,
         "bl_parent_id": "VIEW3D_PT_active_tool",
         "bl_options": {"DEFAULT_CLOSED"} if name == "Advanced" else set(),
-        "poll": classmethod(poll),
+        "poll": classmethod(lambda _cls, context: tool_is_active(context)),
         "draw": draw,
     }
     return type(f"VIEW3D_PT_seamwire_{name.lower()}", (bpy.types.Panel,), body)
@@ -143,7 +136,6 @@ def _panel(name: str) -> type[bpy.types.Panel]:
 OPERATOR = "mesh.seamwire_draw"
 KEYMAP = f"3D View Tool: Edit Mesh, {NAME}"
 """The name of the tool's keymap in Blender."""
-_MODE = "EDIT_MESH"
 _OTHER = "builtin.select_box"
 _NOTHING_ELSE = dict.fromkeys(
     ("keymap", "gizmo_group", "data_block", "operator", "idname_fallback", "keymap_fallback"), ""
@@ -157,10 +149,8 @@ def _key(first: str, type: str = "LEFTMOUSE", **held: bool) -> tuple[str, dict[s
 
 
 class SeamwireTool(bpy.types.WorkSpaceTool):
-    """The tool in the toolbar. A click begins a chain, and most other keys keep Blender's meaning."""
-
     bl_space_type = "VIEW_3D"
-    bl_context_mode = _MODE
+    bl_context_mode = "EDIT_MESH"
     bl_idname = TOOL
     bl_label = NAME
     bl_description = (
@@ -226,8 +216,76 @@ def leave() -> None:
 def _remove_tool() -> None:
     if hasattr(SeamwireTool, "_bl_tool"):
         leave()
-        keymap.empty(KEYMAP)
+        _empty(KEYMAP)
         bpy.utils.unregister_tool(SeamwireTool)
 
 
-register, unregister = together(*classes(VIEW3D_PT_seamwire_overlays, *map(_panel, GROUPS)), (_add_tool, _remove_tool))
+class MESH_OT_seamwire_key(bpy.types.Operator):
+    """Represents a key of a chain in the keymap"""  # noqa: D400 - a tooltip
+
+    bl_idname = ACTION_OPERATOR
+    bl_label = "Seamwire Key"
+    bl_options = {"INTERNAL"}
+
+    action: bpy.props.EnumProperty(
+        name="Action",
+        description="Action of the key",
+        items=tuple((action.name, action.text, "", "NONE", action.number) for action in Action),
+    )
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        """Return False, because a chain looks up its keys itself."""
+        return False
+
+
+_registered: list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]] = []
+_SPACE = {"space_type": "VIEW_3D", "region_type": "WINDOW"}
+
+
+def _add_keys() -> None:
+    configurations = bpy.context.window_manager.keyconfigs
+    if configurations.addon is None:  # background mode has no keymaps
+        return
+    keymap = configurations.addon.keymaps.new(name="Mesh", space_type="EMPTY")
+    item = keymap.keymap_items.new("wm.tool_set_by_id", "W", "PRESS", ctrl=True, alt=True)
+    _registered.append((keymap, item))
+    item.properties.name = TOOL
+    # Blender copies an add-on's keymap to the user's only if its own configuration has a keymap with this name.
+    configurations.default.keymaps.new(name=NAME, **_SPACE)
+    keymap = configurations.addon.keymaps.new(name=NAME, **_SPACE)
+    for action, key in KEYS:
+        held = {name: getattr(key, name) for name in ("ctrl", "shift", "alt")}
+        given = {"any": True} if set(held.values()) == {-1} else {name: want == 1 for name, want in held.items()}
+        item = keymap.keymap_items.new(ACTION_OPERATOR, key.type, key.value, **given)
+        item.properties.action = action.name
+
+
+def _remove_keys() -> None:
+    while _registered:
+        keymap, item = _registered.pop()
+        keymap.keymap_items.remove(item)
+    _empty(NAME)
+    configurations = bpy.context.window_manager.keyconfigs
+    for configuration in (configurations.addon, configurations.default):
+        keymap = configuration.keymaps.get(NAME) if configuration is not None else None
+        if keymap is not None:
+            configuration.keymaps.remove(keymap)
+
+
+def _empty(name: str) -> None:
+    """Remove the add-on's items from a keymap. Otherwise they would stay in the user's keymap."""
+    configurations = bpy.context.window_manager.keyconfigs
+    keymap = configurations.addon.keymaps.get(name) if configurations.addon is not None else None
+    if keymap is not None:
+        while keymap.keymap_items:
+            keymap.keymap_items.remove(keymap.keymap_items[0])
+        configurations.update()
+
+
+register, unregister = together(
+    *classes(MESH_OT_seamwire_key, VIEW3D_PT_seamwire_overlays, *map(_panel, GROUPS)),
+    (lambda: None, _remove_keys),  # keys that were added before an error are removed too
+    (_add_keys, lambda: None),
+    (_add_tool, _remove_tool),
+)

@@ -22,7 +22,7 @@ from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from ..terms.choices import Along
     from .viewport import Place
@@ -52,6 +52,9 @@ class EditedObjects:
         self.sweeper = Timer(self.sweep)
         self.chain: Callable[[], None] | None = None
         self.covered = False  # whether something else is drawn in place of the objects
+        self._changed = 0.0  # when Blender told of a change last
+        self._stale_since = 0.0
+        self._shown: list[tuple[object, ...]] | None = None  # what `show` has shown
 
     # What there is
 
@@ -80,10 +83,6 @@ class EditedObjects:
                 self.front = view
         return view
 
-    def _follow_names(self) -> None:
-        for view in self._views:
-            view.follow_name()
-
     def best_along(self, obj: bpy.types.Object | None) -> Along:
         """Return how wires run on an object if the mesh decides: along edges as long as it is not read."""
         view = None if obj is None else self._view_of(obj)
@@ -91,7 +90,7 @@ class EditedObjects:
 
     def _is_current(self, view: ObjectView, obj: bpy.types.Object) -> bool:
         """Whether what is prepared for an object's mesh holds, having read it anew where it has changed."""
-        if not view.stale and view.mesh.alive() and view.obj == obj:
+        if view.is_current(obj):
             return True
         self._shown = None  # Blender drew the views without it
         try:
@@ -117,12 +116,6 @@ class EditedObjects:
                 self._remove(view)
         return min((view.edited_until + _IDLE - now for view in self._views if view.edited_until), default=None)
 
-    def _drop_deleted(self) -> None:
-        """Forget the objects that were deleted. Undo makes other objects with the same names."""
-        for view in tuple(self._views):
-            if not view.exists and bpy.data.objects.get(view.name) is None:
-                self._remove(view)
-
     def forget(self, view: ObjectView) -> None:
         """Let an object be read anew, at the latest when the mesh has stayed as it is for a moment: it has other vertices now."""
         self._changed = time.monotonic()
@@ -140,12 +133,10 @@ class EditedObjects:
     def clear(self, *_: object) -> None:
         for view in tuple(self._views):
             self._remove(view)
-        self._was_front = ""
-        self._waits = False
         self._states.clear()
         self.timer.stop()
         self.sweeper.stop()
-        self.chain, self.covered = None, False
+        self._was_front, self._waits, self.chain, self.covered = "", False, None, False
         failures.clear()
 
     # Pointing
@@ -154,10 +145,9 @@ class EditedObjects:
         """Return which object is under the mouse, and what of it; `plain`: what loops lead through."""
         found = [view for obj in _in_edit_mode() if (view := self._at(obj, place)) is not None]
         if len(found) > 1:
-            depths = [(view.depth(place.view, place.cursor), view) for view in found]
-            hit = [pair for pair in depths if pair[0] is not None]
-            if hit:
-                found = [min(hit, key=lambda pair: pair[0])[1]]
+            hits = [(hit.depth, view) for view in found if (hit := view.hit(place.view, place.cursor)) is not None]
+            if hits:
+                found = [min(hits, key=lambda pair: pair[0])[1]]
             else:
                 found.sort(key=lambda view: view is not self.front)
         for view in found:
@@ -178,28 +168,24 @@ class EditedObjects:
         """Return an object that may be under the mouse: those that were read always, others where there is room."""
         if self._view_of(obj) is None and not in_bounds(obj, place.view, place.cursor):
             return None
-        if not obj.visible_in_viewport_get(place.area.spaces.active):
-            return None
-        return self._read(obj)
+        return self._read(obj) if obj.visible_in_viewport_get(place.area.spaces.active) else None
 
     def _read(self, obj: bpy.types.Object) -> ObjectView | None:
         """Return what `of` returns, or None where there is nothing to draw on until the mesh changes."""
-        part = ("read", obj.name_full)
-        if failures.has(*part):
+        if failures.has("read", obj.name_full):
             return None
         try:
             return self.of(obj)
         except ValueError:
-            failures.skip(*part)
+            failures.skip("read", obj.name_full)
             return None
 
-    def hover(self, place: Place | None) -> None:
+    def hover(self, place: Place) -> None:
         """Light up what a click, or a key after *W*, would take, while no chain is being drawn."""
         failures.attempt(("hover",), partial(self._hover, place))
 
-    def _hover(self, place: Place | None) -> None:
-        # Blender may ask again although the mouse rests.
-        view, snap = (None, None) if place is None else self.find_or_turned(place)
+    def _hover(self, place: Place) -> None:
+        view, snap = self.find_or_turned(place)
         self.point_at(view, place)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)
@@ -209,12 +195,12 @@ class EditedObjects:
         self.watch()
         self.show()
 
-    def point_at(self, view: ObjectView | None, place: Place | None) -> None:
+    def point_at(self, view: ObjectView | None, place: Place) -> None:
         """Take note where the mouse is. The overlay names the island there, which is on that object if anywhere."""
         for each in self.views():
             each.turned_at(place)
-            hit = each.surface_at(place.view, place.cursor) if each is view and place is not None else None
-            each.islands.pointed = None if hit is None else hit[1]
+            hit = each.hit(place.view, place.cursor) if each is view else None
+            each.islands.pointed = None if hit is None else hit.triangle
 
     # How they follow
 
@@ -224,25 +210,24 @@ class EditedObjects:
             view.mesh.follow(settings)
             view.measure()
 
-    def make_layers(self) -> None:
-        """Make the layers of all objects anew, because others are to be drawn."""
-        for view in self._views:
-            view.make_layers()
-        if self._views:
-            self.on_settings()
-            self.redraw()
-
     def on_settings(self) -> None:
         if self._views:
             self.follow_settings()
             self.watch()
 
+    def make_layers(self) -> None:
+        for view in self._views:
+            view.make_layers()
+        self.on_settings()
+        self.redraw()
+
     def refresh(self, *_: object) -> None:
         """Read changed meshes again, and forget meshes with a new topology. A chain looks after its objects itself."""
         if self.chain:
             return
-        self._follow_names()
         for view in tuple(self._views):
+            if view.exists:
+                view.name = view.obj.name_full
             obj = bpy.data.objects.get(view.name)
             if obj is None or obj.type != "MESH":
                 self._remove(view)
@@ -255,7 +240,10 @@ class EditedObjects:
             if _changed_meshes(depsgraph):
                 failures.retry()
             return
-        self._drop_deleted()
+        for view in tuple(self._views):
+            # Undo makes other objects with the same names.
+            if not view.exists and bpy.data.objects.get(view.name) is None:
+                self._remove(view)
         moved = {update.id.original for update in depsgraph.updates if update.is_updated_geometry}
         self._move([view for view in self._views if view.exists and view.obj in moved], depsgraph)
         meshes = _changed_meshes(depsgraph)
@@ -337,10 +325,10 @@ class EditedObjects:
         self._waits = False
         for window in bpy.context.window_manager.windows:
             with bpy.context.temp_override(window=window):
-                unread = self._unread() if chosen.tool_is_active(bpy.context) else []
-                if unread:
+                obj = self._unread() if chosen.tool_is_active(bpy.context) else None
+                if obj is not None:
                     self._waits = True
-                    failures.attempt(("read", unread[0].name_full), partial(self._show_read, unread[0]))
+                    failures.attempt(("read", obj.name_full), partial(self._show_read, obj))
                     return
 
     def _show_read(self, obj: bpy.types.Object) -> None:
@@ -350,17 +338,13 @@ class EditedObjects:
         self.show()
         self.redraw()
 
-    def _unread(self) -> list[bpy.types.Object]:
-        """Return the objects in edit mode that are not read as they are now, the active one first."""
-        return [obj for obj in _in_edit_mode() if not self._is_read(obj)]
-
-    def _is_read(self, obj: bpy.types.Object) -> bool:
-        if failures.has("read", obj.name_full):
-            return True
-        view = self._view_of(obj)
-        return view is not None and not view.stale and view.mesh.alive() and view.obj == obj
-
-    _changed = _stale_since = 0.0
+    def _unread(self) -> bpy.types.Object | None:
+        """Return an object in edit mode that is not read as it is now, the active one first."""
+        for obj in _in_edit_mode():
+            view = self._view_of(obj)
+            if (view is None or not view.is_current(obj)) and not failures.has("read", obj.name_full):
+                return obj
+        return None
 
     # Drawing
 
@@ -373,14 +357,11 @@ class EditedObjects:
             self._shown = state
             self.redraw()
 
-    _shown: list[tuple[object, ...]] | None = None
-
     redraw = staticmethod(redraw_views)
 
     def take_error(self) -> None:
         """Raise what could not be drawn since the last call: raised while drawing, it would be printed at every redraw."""
-        error = failures.take("draw")
-        if error is not None:
+        if (error := failures.take("draw")) is not None:
             raise error
 
     def draw(self, part: str) -> None:
@@ -389,30 +370,22 @@ class EditedObjects:
         if context.window is None or context.space_data is None:
             return  # another add-on draws the view into a picture
         has_tool = chosen.tool_is_active(context)
-        is_new = self._follow_window(context.window, (context.mode, has_tool))
-        if not self.chain and (is_new or (has_tool and self._unread())):
-            self.watch()
-        if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
-            for view in self._drawn(context.space_data):
-                failures.attempt(("draw", view.name), getattr(view.overlay, part))
-
-    def _follow_window(self, window: bpy.types.Window, state: tuple[str, bool]) -> bool:
-        """Take note of the mode of a window, and of whether it shows the tool. Return whether that is new."""
-        key = window.as_pointer()
+        key, state = context.window.as_pointer(), (context.mode, has_tool)
         is_new = self._states.get(key) != state
         if is_new:
             self._states[key] = state
             failures.retry()
-        return is_new
-
-    def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
+        if not self.chain and (is_new or (has_tool and self._unread() is not None)):
+            self.watch()
+        if not (has_tool or self.chain) or self.covered or not context.space_data.overlay.show_overlays:
+            return
+        # A mesh that changes for a long time is shown after it was read again.
+        shows_stale = self.chain or time.monotonic() - self._stale_since < 2.0 * _PAUSE
         for obj in _in_edit_mode():
             view = self._view_of(obj)
-            if view is None or not view.mesh.alive() or not obj.visible_in_viewport_get(space):
-                continue
-            # A mesh that changes for a long time is shown after it was read again.
-            if self.chain or not view.stale or time.monotonic() - self._stale_since < 2.0 * _PAUSE:
-                yield view
+            is_seen = view is not None and view.mesh.alive() and obj.visible_in_viewport_get(context.space_data)
+            if is_seen and (shows_stale or not view.stale):
+                failures.attempt(("draw", view.name), partial(view.draw, part))
 
 
 def _changed_meshes(depsgraph: bpy.types.Depsgraph) -> set[bpy.types.Mesh]:

@@ -32,7 +32,13 @@ class Failures:
         try:
             found = do()
         except Exception as error:
-            self._note(part, error)
+            self._failed[part] = error
+            text = f"{type(error).__name__}: {error}"
+            if self._told.get(part) != text:
+                self._told[part] = text
+                again = "It is tried again when the mode, the tool or the mesh changes"
+                chosen.notices.add("WARNING", f"Part of the drawing failed. {again}: {text}")
+                sys.excepthook(type(error), error, error.__traceback__)
             return None
         self._told.pop(part, None)
         return found
@@ -54,18 +60,6 @@ class Failures:
     def clear(self) -> None:
         self._failed.clear()
         self._told.clear()
-
-    def _note(self, part: tuple[Hashable, ...], error: Exception) -> None:
-        self._failed[part] = error
-        text = f"{type(error).__name__}: {error}"
-        if self._told.get(part) == text:
-            return
-        self._told[part] = text
-        chosen.notices.add(
-            "WARNING",
-            f"Part of the drawing failed. It is tried again when the mode, the tool or the mesh changes: {text}",
-        )
-        sys.excepthook(type(error), error, error.__traceback__)
 
 
 failures = Failures()

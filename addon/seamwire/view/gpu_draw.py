@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import blf
 import bpy
@@ -13,17 +13,22 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
+from ..core.picking.picker import Camera
 from .theme import HALO, Color, Style
 from .viewport import clipping_planes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
+    _Pass = tuple[gpu.types.GPUBatch | None, Color, float]
+    """What to draw, its color and its width."""
+
 _SOFT = ((1.0, 0.3), (0.75, 0.35), (0.5, 0.45))
 """Widths and opacities that together make a band fade towards its sides."""
-_DISC = np.linspace(0.0, 2.0 * np.pi, 25)
+_TURN = np.linspace(0.0, 2.0 * np.pi, 25)
+_DISC = np.stack([np.cos(_TURN), np.sin(_TURN), np.zeros_like(_TURN)], axis=1)
 _FONT = 0
 _BORDERS = 8
 """The number of clipping borders to cache drawings for. Each view has its own border, or no border."""
@@ -47,33 +52,24 @@ def sees_through(space: bpy.types.SpaceView3D) -> bool:
 
 
 @contextmanager
-def unseen() -> Iterator[None]:
-    """Draw nothing but depth."""
-    before = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
-    gpu.state.depth_test_set("LESS_EQUAL")
-    gpu.state.depth_mask_set(True)
-    gpu.state.color_mask_set(False, False, False, False)
+def blended(depth: str, unseen: bool = False) -> Iterator[None]:
+    """Draw with opacity and a depth test, ``LESS_EQUAL``, ``GREATER`` or ``NONE``, and restore the state.
+
+    `unseen` says to draw nothing but depth, which is left alone otherwise.
+    """
+    state = gpu.state
+    before = state.blend_get(), state.depth_test_get(), state.depth_mask_get()
+    state.blend_set("ALPHA")
+    state.depth_test_set(depth)
+    state.depth_mask_set(unseen)
+    state.color_mask_set(*[not unseen] * 4)
     try:
         yield
     finally:
-        gpu.state.color_mask_set(True, True, True, True)
-        gpu.state.depth_mask_set(before[1])
-        gpu.state.depth_test_set(before[0])
-
-
-@contextmanager
-def blended(depth: str) -> Iterator[None]:
-    """Draw with opacity and a depth test, ``LESS_EQUAL``, ``GREATER`` or ``NONE``, and restore the state."""
-    before = gpu.state.blend_get(), gpu.state.depth_test_get(), gpu.state.depth_mask_get()
-    gpu.state.blend_set("ALPHA")
-    gpu.state.depth_mask_set(False)
-    gpu.state.depth_test_set(depth)
-    try:
-        yield
-    finally:
-        gpu.state.blend_set(before[0])
-        gpu.state.depth_test_set(before[1])
-        gpu.state.depth_mask_set(before[2])
+        state.color_mask_set(True, True, True, True)
+        state.blend_set(before[0])
+        state.depth_test_set(before[1])
+        state.depth_mask_set(before[2])
 
 
 class Eye:
@@ -85,17 +81,17 @@ class Eye:
     def __init__(self, region_3d: bpy.types.RegionView3D, model: Matrix) -> None:
         self.size = gpu.state.viewport_get()[2:]
         self.scale = bpy.context.preferences.system.ui_scale
-        self._view = region_3d.view_matrix
-        self._model = model
         self.is_orthographic = region_3d.window_matrix[3][3] != 0.0
-        self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
         self.to_clip = np.array(region_3d.window_matrix @ region_3d.view_matrix @ model, dtype=np.float64)
+        self._model_view = region_3d.view_matrix @ model
+        self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
         self._planes = clipping_planes(region_3d) @ np.array(model, dtype=np.float64)
-
-    @property
-    def border(self) -> bytes:
-        """The view's clipping border, as bytes, in the coordinates of what is drawn. Empty without a border."""
-        return self._planes.tobytes()
+        # Projects (n, 3) to (n, 2) pixels from the lower left corner of the region; NaN behind the viewer.
+        self.on_screen = Camera(*self.size, self.to_clip).to_pixels
+        # The view's clipping border in the coordinates of what is drawn. Empty without a border.
+        self.border = self._planes.tobytes()
+        # The same as long as all is seen at the same place on the screen.
+        self.key = self.to_clip.tobytes() + bytes(str(self.size), "ascii")
 
     def shows(self, points: NDArray[np.float64]) -> NDArray[np.bool_] | None:
         """Return which of (n, 3) points lie inside the view's clipping border; None: it has none."""
@@ -111,48 +107,66 @@ class Eye:
         """
         depth = pixels * self.scale * self._pixel
         if self.is_orthographic:
-            return Matrix.Translation((0.0, 0.0, depth)) @ self._view @ self._model
+            return Matrix.Translation((0.0, 0.0, depth)) @ self._model_view
         # Towards the eye: what is seen stays in its place on the screen.
-        return Matrix.Scale(1.0 - depth, 4) @ self._view @ self._model
+        return Matrix.Scale(1.0 - depth, 4) @ self._model_view
 
     @property
     def facing(self) -> NDArray[np.float64]:
         """The direction towards the viewer, (3,) of length 1, in the coordinates of what is drawn."""
-        found = np.array(self._view @ self._model, dtype=np.float64)[2, :3]
+        found = np.array(self._model_view, dtype=np.float64)[2, :3]
         return found / max(float(np.linalg.norm(found)), 1e-300)
 
     def pixel_sizes(self, depths: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how large a pixel is at depths (view coordinates, negative ahead)."""
         return np.full_like(depths, self._pixel) if self.is_orthographic else self._pixel * np.abs(depths)
 
-    def on_screen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Project (n, 3) to (n, 2) pixels from the lower left corner of the region; NaN behind the viewer."""
-        clip = points @ self.to_clip[:, :3].T + self.to_clip[:, 3]
-        w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
-        return (clip[:, :2] / w + 1.0) * 0.5 * self.size
 
-    @property
-    def key(self) -> bytes:
-        """The same as long as all is seen at the same place on the screen."""
-        return self.to_clip.tobytes() + bytes(str(self.size), "ascii")
+class Within:
+    """Keeps the part of a drawing within a view's clipping border, for the last few borders. `make` makes it for an eye."""
+
+    def __init__(self, make: Callable[[Eye], Any]) -> None:
+        self._make = make
+        self._made: dict[bytes, Any] = {}
+
+    def of(self, eye: Eye) -> Any:  # noqa: ANN401 - what `make` makes
+        if eye.border not in self._made:
+            if len(self._made) == _BORDERS:
+                del self._made[next(iter(self._made))]
+            self._made[eye.border] = self._make(eye)
+        return self._made[eye.border]
+
+
+class Made:
+    """Keeps what was made, by name, until it is wanted for another key."""
+
+    def __init__(self) -> None:
+        self._made: dict[Hashable, tuple[object, Any]] = {}
+
+    def of(self, name: Hashable, key: object, make: Callable[[], Any]) -> Any:  # noqa: ANN401 - what `make` makes
+        if name not in self._made or self._made[name][0] != key:
+            self._made[name] = key, make()
+        return self._made[name][1]
+
+    def clear(self) -> None:
+        self._made.clear()
 
 
 class Lines:
-    """Segments of one style, ready to be drawn, by their ends, (k, 2, 3); those of a curve in order: dashes run on over its corners."""
+    """Segments of one style, ready to be drawn, by their ends, (k, 2, 3); those of a curve in order: dashes run on over its corners.
+
+    They are drawn as far as the view's clipping border leaves them, under the depth test that is set.
+    """
 
     def __init__(self, style: Style, ends: NDArray[np.float64]) -> None:
         self.style = style
         self._ends = ends
         self._shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-        self._seen_from = b""
-        # Light dashes are seen on a light surface by the dark gaps between them.
-        self._ground = self._make(ends) if style.dash and style.halo else None
-        self._hidden: tuple[bytes, gpu.types.GPUBatch | None] = (b"", None)
-        self._batch = None if style.dash else self._make(ends)
+        self._plain = self._make(ends)
+        self._dashed = Made()  # by the length of a dash
         self._within = Within(self._inside)
 
     def _inside(self, eye: Eye) -> Lines:
-        """Return those that the view's clipping border leaves; this object if it leaves all."""
         inside = eye.shows(self._ends.mean(axis=1))
         return self if inside is None or inside.all() else Lines(self.style, self._ends[inside])
 
@@ -161,44 +175,39 @@ class Lines:
             return None  # Blender makes none of nothing
         return batch_for_shader(self._shader, "LINES", {"pos": ends.reshape(-1, 3).astype(np.float32)})
 
-    def draw(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> None:
-        """Draw those that the view's clipping border leaves, under the depth test that is set."""
+    def _in_dashes(self, eye: Eye, length: float) -> gpu.types.GPUBatch | None:
+        return self._dashed.of(length, eye.key, lambda: self._make(dashes(self._ends, eye, length * eye.scale)))
+
+    def draw(self, eye: Eye) -> None:
         lines = self._within.of(eye)
-        if lines is not self:
-            lines.draw(eye, opacity, rim)
-            return
-        style, passes = self.style, []
-        if style.dash and self._seen_from != eye.key:
-            self._batch = self._make(dashes(self._ends, eye, style.dash * eye.scale))
-            self._seen_from = eye.key
-        if self._ground is not None and rim:
-            passes.append((self._ground, (*HALO[:3], HALO[3] * opacity), (style.width + style.halo) * eye.scale))
-        passes += [(self._batch, color, width * eye.scale) for color, width in layers(style, opacity, rim)]
-        self._draw(eye, passes)
+        lines._draw(eye, lines._passes(eye))
 
     def draw_hidden(self, eye: Eye, opacity: float) -> None:
         """Draw what the mesh lies before, in thin dashes: nobody should take it for a line on the surface."""
-        lines = self._within.of(eye)
-        if lines is not self:
-            lines.draw_hidden(eye, opacity)
+        lines, style = self._within.of(eye), self.style
+        if style.soft or len(lines._ends) > _MOST_DASHED:
+            lines._draw(eye, lines._passes(eye, opacity, rim=False))
             return
-        style = self.style
-        if style.soft or len(self._ends) > _MOST_DASHED:
-            self.draw(eye, opacity, rim=False)
-            return
-        if self._hidden[0] != eye.key:
-            self._hidden = eye.key, self._make(dashes(self._ends, eye, _HIDDEN_DASH * eye.scale))
         color = (*style.color[:3], style.color[3] * opacity)
-        self._draw(eye, [(self._hidden[1], color, max(1.0, _HIDDEN_WIDTH * style.width) * eye.scale)])
+        lines._draw(eye, [(lines._in_dashes(eye, _HIDDEN_DASH), color, max(1.0, _HIDDEN_WIDTH * style.width))])
 
-    def _draw(self, eye: Eye, passes: Sequence[tuple[gpu.types.GPUBatch | None, Color, float]]) -> None:
+    def _passes(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> list[_Pass]:
+        style = self.style
+        batch = self._in_dashes(eye, style.dash) if style.dash else self._plain
+        passes: list[_Pass] = [(batch, color, width) for color, width in layers(style, opacity, rim)]
+        if style.dash and style.halo and rim:
+            # Light dashes are seen on a light surface by the dark gaps between them.
+            passes.insert(0, (self._plain, (*HALO[:3], HALO[3] * opacity), style.width + style.halo))
+        return passes
+
+    def _draw(self, eye: Eye, passes: Iterable[_Pass]) -> None:
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(self.style.lift))
             self._shader.bind()
             self._shader.uniform_float("viewportSize", eye.size)
             for batch, color, width in passes:
                 if batch is not None:
-                    self._shader.uniform_float("lineWidth", width)
+                    self._shader.uniform_float("lineWidth", width * eye.scale)
                     self._shader.uniform_float("color", color)
                     batch.draw(self._shader)
 
@@ -255,34 +264,10 @@ def draw_dots(style: Style, places: NDArray[np.float64], eye: Eye, opacity: floa
         shader.bind()
         for color, width in layers(style, opacity, rim):
             radii = 0.5 * width * eye.scale * eye.pixel_sizes(centres[:, 2])
+            edge = centres[:, None] + radii[:, None, None] * _DISC
+            fans = np.stack([np.broadcast_to(centres[:, None], edge[:, 1:].shape), edge[:, :-1], edge[:, 1:]], axis=2)
             shader.uniform_float("color", color)
-            batch_for_shader(shader, "TRIS", {"pos": discs(centres, radii)}).draw(shader)
-
-
-def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Return triangles, (k, 3), of discs that face the viewer, in view coordinates."""
-    rim = np.stack([np.cos(_DISC), np.sin(_DISC), np.zeros_like(_DISC)], axis=1)
-    edge = centres[:, None] + radii[:, None, None] * rim
-    fans = np.stack([np.broadcast_to(centres[:, None], edge[:, 1:].shape), edge[:, :-1], edge[:, 1:]], axis=2)
-    return fans.reshape(-1, 3).astype(np.float32)
-
-
-class Within:
-    """Keeps the part of a drawing within a view's clipping border, for the last few borders. `make` makes it for an eye."""
-
-    def __init__(self, make: Callable[[Eye], object]) -> None:
-        self._make = make
-        self._made: dict[bytes, object] = {}
-
-    def clear(self) -> None:
-        self._made.clear()
-
-    def of(self, eye: Eye) -> object:
-        if eye.border not in self._made:
-            if len(self._made) == _BORDERS:
-                del self._made[next(iter(self._made))]
-            self._made[eye.border] = self._make(eye)
-        return self._made[eye.border]
+            batch_for_shader(shader, "TRIS", {"pos": fans.reshape(-1, 3).astype(np.float32)}).draw(shader)
 
 
 def whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> NDArray[np.integer]:
@@ -300,13 +285,12 @@ class ColoredFaces:
         form.attr_add(id="pos", comp_type="F32", len=3, fetch_mode="FLOAT")
         self._points = gpu.types.GPUVertBuf(form, len(points))
         self._points.attr_fill("pos", np.ascontiguousarray(points, dtype=np.float32))
-        self._pieces: list[tuple[int, NDArray[np.integer]]] = []
-        self._within = Within(self._make)
+        self.fill(())
 
     def fill(self, pieces: Iterable[tuple[int, NDArray[np.integer]]]) -> None:
         """Draw other triangles from here on: pairs of the number of a color and triangles, (k, 3)."""
         self._pieces = list(pieces)
-        self._within.clear()
+        self._within = Within(self._make)
 
     def _make(self, eye: Eye) -> list[tuple[int, gpu.types.GPUBatch]]:
         inside, made = eye.shows(self._places), []
@@ -317,25 +301,25 @@ class ColoredFaces:
                 made.append((color, gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)))
         return made
 
-    def draw(self, eye: Eye, colors: Sequence[Color], lift: float) -> None:
-        """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(eye.lifted(lift))
-            self._shader.bind()
-            for number, batch in self._within.of(eye):
-                self._shader.uniform_float("color", colors[number])
-                batch.draw(self._shader)
-
     def draw_over(self, eye: Eye, colors: Sequence[Color], lift: float = OVER) -> None:
-        """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now. See `draw_over`."""
-        draw_over(lambda lift: self.draw(eye, colors, lift), lift)
+        """Draw those that the view's clipping border leaves whole over the mesh, in the view that Blender is drawing now."""
+
+        def draw(lift: float) -> None:
+            with gpu.matrix.push_pop():
+                gpu.matrix.load_matrix(eye.lifted(lift))
+                self._shader.bind()
+                for number, batch in self._within.of(eye):
+                    self._shader.uniform_float("color", colors[number])
+                    batch.draw(self._shader)
+
+        draw_over(draw, lift)
 
 
 def draw_over(draw: Callable[[float], None], lift: float = OVER) -> None:
     """Draw over the mesh, with opacity, by a number of pixels nearer to the viewer. `draw` takes the pixels to lift faces by."""
     if sees_through(bpy.context.space_data):
         # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
-        with unseen():
+        with blended("LESS_EQUAL", unseen=True):
             draw(0.0)
     with blended("LESS_EQUAL"):
         draw(lift)
@@ -345,7 +329,6 @@ def draw_over(draw: Callable[[float], None], lift: float = OVER) -> None:
 
 
 def text_size(scale: float) -> float:
-    """Return the size of the interface's text, in pixels."""
     return bpy.context.preferences.ui_styles[0].widget.points * scale
 
 
@@ -355,12 +338,10 @@ def set_text(size: float) -> None:
 
 
 def text_width(text: str) -> float:
-    """Return how long a text is, in pixels."""
     return blf.dimensions(_FONT, text)[0]
 
 
 def draw_text(text: str, at: tuple[float, float], color: Sequence[float], shadow: bool = True) -> None:
-    """Draw one line of text from a place on its base line."""
     blf.color(_FONT, *color)
     if shadow:
         # As Blender's own text in the viewport: dark under light text, light under dark.

@@ -11,7 +11,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..mesh.registration import Timer, handler, together
-from ..mesh.settings import listeners, tool_is_active
+from ..mesh.settings import ADDON, listeners, tool_is_active
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,12 +19,13 @@ if TYPE_CHECKING:
 
 _PARTS = {"POST_VIEW": "draw_in_scene", "POST_PIXEL": "draw_on_screen"}
 """When Blender draws each part of an overlay."""
+_RECORDS = "mesh.object_session"
+"""The module that knows the records of wires."""
 _handles: list[object] = []
-_OBJECTS = f"{__package__}.edited_objects"
 
 
 def _draw(part: str) -> None:
-    objects = sys.modules.get(_OBJECTS)
+    objects = sys.modules.get(f"{__package__}.edited_objects")
     if objects is not None:
         objects.edited.draw(part)
     elif tool_is_active(bpy.context):
@@ -40,26 +41,14 @@ def _import() -> None:
 _start = Timer(_import)
 
 
-def _hand_on(method: str) -> Callable[..., None]:
-    """Return a function that calls a method of the objects that are drawn on, with what Blender gives it."""
+def _hand_on(name: str, module: str = "view.edited_objects") -> Callable[..., None]:
+    """Return a function that calls a function of a module, or a method of `edited`, with what Blender gives it."""
 
     @persistent
     def call(*given: object) -> None:
-        objects = sys.modules.get(_OBJECTS)
-        if objects is not None:
-            getattr(objects.edited, method)(*given)
-
-    return call
-
-
-def _with_records(function: str) -> Callable[..., None]:
-    """Return a function that calls a function of the module that knows the records of wires."""
-
-    @persistent
-    def call(*_: object) -> None:
-        session = sys.modules.get(f"{__package__.rpartition('.')[0]}.mesh.object_session")
-        if session is not None:
-            getattr(session, function)()
+        loaded = sys.modules.get(f"{ADDON}.{module}")
+        if loaded is not None:
+            getattr(getattr(loaded, "edited", loaded), name)(*given)
 
     return call
 
@@ -86,7 +75,7 @@ register, unregister = together(
     handler("undo_post", _hand_on("on_undo")),
     handler("redo_post", _hand_on("on_undo")),
     handler("save_pre", _hand_on("refresh")),
-    handler("save_pre", _with_records("complete_records")),
+    handler("save_pre", _hand_on("complete_records", _RECORDS)),
     handler("load_pre", _hand_on("clear")),
-    handler("load_post", _with_records("forget_records")),
+    handler("load_post", _hand_on("forget_records", _RECORDS)),
 )

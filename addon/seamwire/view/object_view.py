@@ -8,7 +8,6 @@ import threading
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
-from weakref import ref
 
 import bpy
 import numpy as np
@@ -23,15 +22,14 @@ from ..mesh import settings as chosen
 from ..mesh.edit_mesh import visible_stretch
 from ..mesh.object_session import ObjectSession
 from ..mesh.pose import Pose
-from .crest_view import CrestView
 from .failures import failures
-from .layers import makers
+from .layers import CrestView, StretchHeat, makers
 from .overlay import Overlay
-from .stretch_heat import StretchHeat
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator
 
+    import seamwire_core
     from numpy.typing import ArrayLike, NDArray
 
     from ..core.islands.islands import Islands
@@ -39,10 +37,9 @@ if TYPE_CHECKING:
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
-    from ..core.picking.camera import Camera
+    from ..core.picking.picker import Camera
     from ..core.sketch.picture import Picture
     from ..core.sketch.sketch import Sketch
-    from ..core.solver.solver import End
     from ..terms.options import Options
     from .layers import Layer
     from .viewport import Place
@@ -69,20 +66,16 @@ class ShownIslands:
     @property
     def newest(self) -> Islands | None:
         """The islands that were computed last. None if computing them failed."""
-        return None if self._failed else self._maker.answer
+        return None if failures.has(*self._part) else self._maker.answer
 
     @property
     def busy(self) -> bool:
         """Whether islands are being computed: `poll` is to be called now and then."""
-        return not self._failed and (self._maker.busy or self._stale)
+        return not failures.has(*self._part) and (self._maker.busy or self._asked != self._key)
 
     @property
-    def _failed(self) -> bool:
-        return failures.has(*self._part)
-
-    @property
-    def _stale(self) -> bool:
-        return self._asked != (self._session.network_revision, self._seams_read)
+    def _key(self) -> tuple[int, int]:
+        return self._session.network_revision, self._seams_read
 
     @property
     def pointed_island(self) -> int | None:
@@ -104,24 +97,22 @@ class ShownIslands:
         return self._told != before
 
     def _ask(self) -> None:
+        session = self._session
         try:
             self._maker.check()
-            if self._stale:
-                self._want()
+            if self._asked == self._key:
+                return
+            self._asked = self._key
+            wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
+            planned = (wire for wire in session.wires if wire.planned)
+            meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
+            # A chain that ends turns cuts of wires into seams: the islands stay the same.
+            if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
+                self._cuts, self._meant = wanted, meant
+                self._maker.ask(self._asked, wanted, meant)
         except Exception:
             self._asked = self._cuts = None  # the next attempt asks anew
             raise
-
-    def _want(self) -> None:
-        session = self._session
-        self._asked = (session.network_revision, self._seams_read)
-        wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
-        planned = (wire for wire in session.wires if wire.planned)
-        meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
-        # A chain that ends turns cuts of wires into seams: the islands stay the same.
-        if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
-            self._cuts, self._meant = wanted, meant
-            self._maker.ask(self._asked, wanted, meant)
 
 
 def in_bounds(obj: bpy.types.Object, view: Camera, cursor: tuple[float, float]) -> bool:
@@ -173,15 +164,7 @@ class ObjectView:
         # The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
-        own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
-        self.overlay = Overlay(
-            lambda: own().picture,
-            lambda: own().obj,
-            self.pose,
-            arrays.to_object,
-            preferences=chosen.preferences(),
-            layers=self._layers,
-        )
+        self.overlay = Overlay(self.pose, arrays.to_object, preferences=chosen.preferences(), layers=self._layers)
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full  # the last one that is known
         self.edited_until: float | None = None  # when it was found out that it is not edited
@@ -198,7 +181,6 @@ class ObjectView:
 
     @property
     def session(self) -> Sketch:
-        """The object's session."""
         return self.mesh.session
 
     @property
@@ -215,8 +197,11 @@ class ObjectView:
             front=self._front,
         )
 
+    def draw(self, part: str) -> None:
+        """Draw by a method of overlays in the view that Blender is drawing now."""
+        getattr(self.overlay, part)(self.picture, self.obj)
+
     def close(self) -> None:
-        """Let go of what works on threads."""
         self.session.offering.parts.stop()
         self._islands.close()
         for layer in self._layers:
@@ -253,15 +238,12 @@ class ObjectView:
 
     def follow_pose(self) -> None:
         """Let picker and overlay follow the pose in which the mesh is seen."""
-        if not self._has_moved:
-            return
-        self._has_moved = False
-        if self.pose.follow(self.obj):
+        has_moved, self._has_moved = self._has_moved, False
+        if has_moved and self.pose.follow(self.obj):
             self._posed_picker = None
             self.overlay.repose()
 
     def _follow_picker(self) -> Picker:
-        """Return the picker, made anew if the mesh is seen in another pose now."""
         self.follow_pose()
         if self._posed_picker is None:
             posed = replace(self.mesh.arrays, points=self.pose.points)
@@ -279,7 +261,6 @@ class ObjectView:
             self.stale = stale
 
     def make_layers(self) -> None:
-        """Make the layers anew, because others are to be drawn."""
         made = [
             failures.attempt(("layer made", self.name, make), partial(make, self.mesh.arrays, self._surface, self.pose))
             for make in makers
@@ -291,23 +272,18 @@ class ObjectView:
     def _follow_layers(self) -> None:
         session, options = self.session, self.options
         self.crest_view.is_wanted = options.snap or session.offering.wanted
-        source, strokes = self._source(), session.engines.strokes
+        pick = session.seed_place
+        if pick is None and self.mesh.alive():
+            pick = self.mesh.cage.active_vertex()
+        if pick is None:
+            pick = next(reversed(session.seeds()), None)
+        source, strokes = None if pick is None else for_live(pick, "SURFACE"), session.engines.strokes
         for key, layer in self._working_layers():
             failures.attempt(key, partial(layer.follow, options, source, strokes))
         session.use_crests(self.crest_view.crests, options.show_crests)
 
-    def _source(self) -> End | None:
-        """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
-        pick = self.session.seed_place
-        if pick is None and self.mesh.alive():
-            pick = self.mesh.cage.active_vertex()
-        if pick is None:
-            pick = next(reversed(self.session.seeds()), None)
-        return None if pick is None else for_live(pick, "SURFACE")
-
     @property
     def busy(self) -> bool:
-        """Whether something is being computed: `poll` is to be called now and then."""
         return self.mesh.busy or self.islands.busy or any(layer.busy for _, layer in self._working_layers())
 
     def poll(self) -> bool:
@@ -321,7 +297,6 @@ class ObjectView:
         return any((self.session.revision != seen, self.islands.poll(), told))
 
     def _working_layers(self) -> Iterator[tuple[tuple[Hashable, ...], Layer]]:
-        """Iterate over the layers that have not failed, each after what `failures` calls it."""
         for number, layer in enumerate(self._layers):
             key = ("layers", self.name, number)
             if not failures.has(*key):
@@ -341,10 +316,8 @@ class ObjectView:
         except ReferenceError:
             return False
 
-    def follow_name(self) -> None:
-        """Take note of the object's name, which finds it again after undo has made another object."""
-        if self.exists:
-            self.name = self.obj.name_full
+    def is_current(self, obj: bpy.types.Object) -> bool:
+        return not self.stale and self.mesh.alive() and self.obj == obj
 
     def snap(self, view: Camera, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.
@@ -366,7 +339,7 @@ class ObjectView:
             anywhere=across and options.into_faces,
             session=None if plain else self.session,
             xray=options.xray,
-            preferred=self.session.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
+            preferred=self.session.symmetry.on_plane(options.mirror) if mirrored else frozenset(),
             strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
             crests=None if self.pose.is_bent or not has_crests else self.crest_view.crests,
@@ -380,14 +353,13 @@ class ObjectView:
             return None
         return self._follow_picker().seen_along(view, self.obj.matrix_world, pick)
 
-    def depth(self, view: Camera, cursor: tuple[float, float]) -> float | None:
-        """Return how far from the viewer the object is under the cursor; None where it is not."""
-        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
-        return None if found is None else found.depth
+    def hit(self, view: Camera, cursor: tuple[float, float]) -> seamwire_core.Picked | None:
+        """Return what `Picker.surface_at` finds of the mesh as it is seen."""
+        return self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
 
     def surface_at(self, view: Camera, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
-        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
+        found = self.hit(view, cursor)
         return None if found is None else (self.pose.at_rest(found.place, found.triangle), found.triangle)
 
     def is_on_mirrored_half(self, view: Camera, cursor: tuple[float, float]) -> bool:

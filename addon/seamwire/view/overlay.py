@@ -20,6 +20,7 @@ from .gpu_draw import (
     ColoredFaces,
     Eye,
     Lines,
+    Made,
     blended,
     draw_dots,
     draw_rectangle,
@@ -68,16 +69,12 @@ class Sheet:
             seen = self._pose.places(points)
             self._pieces.setdefault(style, []).append(np.stack([seen[:-1], seen[1:]], axis=1))
 
-    def path(self, style: Style, vertices: Sequence[int]) -> None:
-        self.edges(style, pairwise(vertices))
-
     def edges(self, style: Style, edges: Iterable[Edge]) -> None:
         pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
         if len(pairs):
             self._pieces.setdefault(style, []).append(self._pose.points[pairs])
 
     def dashes(self, style: Style, start: Pick, end: Pick) -> None:
-        """Add a dashed line between two picks."""
         ends = np.array([place_of(start, self._pose.points), place_of(end, self._pose.points)])
         parts = np.linspace(0.0, 1.0, 2 * _DASHES)[:, None]
         self._pieces.setdefault(style, []).append((ends[0] + parts * (ends[1] - ends[0])).reshape(-1, 2, 3))
@@ -90,7 +87,6 @@ class Sheet:
         self.dots = [(style, np.array(places)) for style, places in self._places.items()]
 
     def draw_lines(self, eye: Eye, hidden: bool, xray: bool = False) -> None:
-        """Draw the lines: what the mesh lies before, or the rest."""
         for lines in self.lines:
             if hidden:
                 lines.draw_hidden(eye, 1.0 if xray else lines.style.hidden)
@@ -98,7 +94,6 @@ class Sheet:
                 lines.draw(eye)
 
     def draw_dots(self, eye: Eye, hidden: bool, xray: bool) -> None:
-        """Draw the dots: what the mesh lies before, or the rest."""
         for style, places in self.dots:
             inside = eye.shows(places)
             shown = places if inside is None else places[inside]
@@ -107,56 +102,44 @@ class Sheet:
 
 
 class Overlay:
-    """The drawing of pictures over one object.
+    """Draws pictures over one object.
 
-    `picture` returns what is to be seen now, and `obj` the object, because Blender may replace it. `to_object`, (3, 3), takes places of the
-    pose to object coordinates. The `layers` lie below the wires, and the list may change.
+    `to_object`, (3, 3), takes places of the pose to object coordinates. The `layers` lie below the wires, and the list may change.
     """
 
     def __init__(
         self,
-        picture: Callable[[], Picture],
-        obj: Callable[[], bpy.types.Object],
         pose: Pose,
         to_object: NDArray[np.float64],
         *,
         preferences: object | None = None,
         layers: Sequence[Layer] = (),
     ) -> None:
-        self._picture = picture
-        self._obj = obj
-        self._name = obj().name_full
         self._pose = pose
         self._preferences = preferences
         self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
-        self._looks = self._current_looks()
-        self._sheets: dict[str, tuple[object, Sheet]] = {}
+        self._looks = Looks()
+        self._made = Made()
         self._strokes: list[tuple[NDArray[np.float64], bool]] = []
-        self._faces: ColoredFaces | None = None
-        self._tinted: object = None
 
     def repose(self) -> None:
-        self._sheets.clear()
-        self._faces = self._tinted = None
+        self._made.clear()
         list(self._ask_layers("repose"))
 
-    # Drawing
-
-    def _current_looks(self) -> Looks:
-        return looks_of(bpy.context.preferences.themes[0].view_3d, self._preferences)
-
-    def draw_in_scene(self) -> None:
-        """Draw on the surface; to be called for each region, after the view."""
-        picture = self._picture()
-        looks = self._current_looks()
+    def draw_in_scene(self, picture: Picture, obj: bpy.types.Object) -> None:
+        looks = looks_of(bpy.context.preferences.themes[0].view_3d, self._preferences)
         if looks is not self._looks:
             self._looks = looks
-            self._sheets.clear()
+            self._made.clear()
         sheets = self._current_sheets(picture)
-        eye = Eye(bpy.context.region_data, self._obj().matrix_world @ self._to_object)
-        if not any(self._ask_layers("draw_heat", eye)):
-            self._draw_tint(eye, picture.islands)
+        eye = Eye(bpy.context.region_data, obj.matrix_world @ self._to_object)
+        found = picture.islands
+        if not any(self._ask_layers("draw_heat", eye)) and found is not None and looks.tint > 0.0:
+            faces = self._made.of("faces", None, lambda: ColoredFaces(self._pose.points))
+            # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
+            self._made.of("tint", found.key, lambda: faces.fill(found.pieces if found.cut else ()))
+            faces.draw_over(eye, hue_colors(looks.tint))
         list(self._ask_layers("draw_lines", eye))
         xray = picture.options.xray
         for hidden in (True, False):
@@ -169,23 +152,10 @@ class Overlay:
     def _ask_layers(self, method: str, *arguments: object) -> Iterator[object]:
         """Call a method of each layer, and yield what it returns. A layer that fails yields None, and the others are still drawn."""
         for number, layer in enumerate(self._layers):
-            part = ("layer drawn", self._name, number, method)
+            part = ("layer drawn", id(self), number, method)
             yield failures.attempt(part, partial(getattr(layer, method), *arguments))
 
-    def _draw_tint(self, eye: Eye, found: Islands | None) -> None:
-        if found is None or self._looks.tint <= 0.0:
-            return
-        if self._faces is None:
-            self._faces = ColoredFaces(self._pose.points)
-        if found.key != self._tinted:
-            # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
-            self._faces.fill(found.pieces if found.cut else ())
-            self._tinted = found.key
-        self._faces.draw_over(eye, hue_colors(self._looks.tint))
-
-    def draw_on_screen(self) -> None:
-        """Draw over the region: text and legends."""
-        picture = self._picture()
+    def draw_on_screen(self, picture: Picture, _obj: bpy.types.Object) -> None:
         if not picture.front:
             return
         room = free_room(bpy.context.area, bpy.context.region)
@@ -200,8 +170,6 @@ class Overlay:
                 above = (left, high, width, height - (high - bottom))
                 draw_legends([Legend(corner.FIRST_LINES)], above, scale, on_left=True)
             draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
-
-    # What there is to draw
 
     def _current_sheets(self, picture: Picture) -> list[Sheet]:
         """Return the sheets from the lowest to the highest, those made anew whose content has changed."""
@@ -219,12 +187,13 @@ class Overlay:
         ]
 
     def _sheet(self, name: str, key: object, add: Callable[[Sheet, object], None], what: object) -> Sheet:
-        if name not in self._sheets or self._sheets[name][0] != key:
+        def make() -> Sheet:
             sheet = Sheet(self._pose)
             add(sheet, what)
             sheet.finish()
-            self._sheets[name] = key, sheet
-        return self._sheets[name][1]
+            return sheet
+
+        return self._made.of(name, key, make)
 
     def _add_bands(self, sheet: Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:
         for points, attracts in strokes:
@@ -233,11 +202,10 @@ class Overlay:
     def _add_gaps(self, sheet: Sheet, found: Islands | None) -> None:
         """Add what keeps islands from separating: ends of seams, and the way to what they nearly meet."""
         for gap in () if found is None else found.gaps:
-            sheet.path(self._looks.gap, gap.path)
+            sheet.edges(self._looks.gap, pairwise(gap.path))
             sheet.dot(self._looks.open_end, gap.end)
 
     def _add_kept(self, sheet: Sheet, picture: Picture) -> None:
-        """Add the kept wires: many, and seldom changed."""
         looks = self._looks
         kept = [shown for shown in picture.wires if shown.role is Role.KEPT]
         for shown in kept:
@@ -249,7 +217,6 @@ class Overlay:
             sheet.curve(looks.kept if shown.wire.marks else looks.clear, shown.wire.points)
 
     def _add_live(self, sheet: Sheet, picture: Picture) -> None:
-        """Add what changes with every move of the cursor."""
         looks = self._looks
         for shown in picture.wires:
             if shown.role is Role.HOVERED:
@@ -321,18 +288,15 @@ def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, fl
     """Return what of a region no toolbar, sidebar, header or panel lies over: left, bottom, width, height."""
     left, bottom, right, top = 0, 0, region.width, region.height
     for other in area.regions:
-        if other.type == "WINDOW" or other.width <= 1 or other.height <= 1:
-            continue
         x, y = other.x - region.x, other.y - region.y
-        if x >= region.width or y >= region.height or x + other.width <= 0 or y + other.height <= 0:
+        is_seen = other.type != "WINDOW" and other.width > 1 and other.height > 1
+        if not is_seen or x >= region.width or y >= region.height or x + other.width <= 0 or y + other.height <= 0:
             continue
         if other.type == "TOOLS":
             left = max(left, x + other.width)
         elif other.type == "UI":
             right = min(right, x)
-        elif other.type == "HUD":
-            bottom = max(bottom, y + other.height)
-        elif y > region.height // 2:
+        elif other.type != "HUD" and y > region.height // 2:
             top = min(top, y)
         else:
             bottom = max(bottom, y + other.height)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How wires, seeds and islands look: one table, made from the theme and the add-on's preferences."""
+"""How wires, seeds and islands look: one table, made from the theme and the add-on's preferences. And colors for numbers."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ import numpy as np
 from ..core.islands.islands import HUES, PLACES
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import bpy
+    from numpy.typing import ArrayLike, NDArray
 
 Color = tuple[float, float, float, float]
 
@@ -23,6 +22,28 @@ HALO: Color = (0.02, 0.02, 0.03, 0.75)
 """The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
 _BRIGHTNESS = 0.5
 """Of the islands' colors."""
+ColorMap = tuple[tuple[float, float, float], ...]
+"""A few published colors at equal distances, with straight ways in between."""
+STRETCH: ColorMap = (
+    (0.13, 0.22, 0.78),
+    (0.10, 0.66, 0.86),
+    (0.30, 0.76, 0.32),
+    (0.98, 0.86, 0.16),
+    (0.74, 0.04, 0.12),
+)
+"""From blue to red, as the stretch of UV maps is shown elsewhere. Yellow is the lightest: where it turns to red is seen without
+color too. The red is darker than that of seams, which are seen on it."""
+
+
+def colors(parts: ArrayLike, of: ColorMap) -> NDArray[np.float64]:
+    """Return the colors, (..., 3), at parts of a map, from 0 to 1; what is below 0 or above 1 has the color of the end."""
+    parts = np.asarray(parts, dtype=np.float64)
+    at = np.linspace(0.0, 1.0, len(of))
+    return np.stack([np.interp(parts, at, column) for column in zip(*of, strict=True)], axis=-1)
+
+
+def steps(of: ColorMap, count: int, opacity: float = 1.0) -> list[Color]:
+    return [(r, g, b, opacity) for r, g, b in colors(np.linspace(0.0, 1.0, count), of).tolist()]
 
 
 @dataclass(frozen=True)
@@ -87,14 +108,11 @@ class Looks:
         # Where it ends: larger than a seed, which is drawn over it.
         self.open_end = Style(kept, 14.0, halo=2.5, hidden=0.3, lift=9.0)
         self.tint, self.text = tint, text
-        self._widen(line_width)
-
-    def _widen(self, factor: float) -> None:
-        """Make lines so many times as wide. Dots grow half as fast."""
         dots = {"seed", "live_seed", "hovered_seed", "closing", "open_end"}
         for name, style in vars(self).items():
             if isinstance(style, Style):
-                by = 0.5 * (1.0 + factor) if name in dots or name.startswith("dot") else factor
+                # Dots grow half as fast as lines.
+                by = 0.5 * (1.0 + line_width) if name in dots or name.startswith("dot") else line_width
                 setattr(self, name, replace(style, width=style.width * by))
 
 
@@ -104,20 +122,16 @@ _looks = lru_cache(maxsize=2)(Looks)
 def looks_of(theme: bpy.types.ThemeView3D, preferences: object | None = None) -> Looks:
     """Return the styles for the theme of the 3D view and the add-on's preferences, the same object until one of them changes."""
     # Blender 5 has shortened the name.
-    kept = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
+    seam = theme.seam if hasattr(theme, "seam") else theme.edge_seam
+    hue, saturation, value = colorsys.rgb_to_hsv(*seam[:3])
+    # As bright as it can be in its hue: on a surface thin lines look darker than they are.
+    kept = (*colorsys.hsv_to_rgb(hue, min(saturation, 0.85), 1.0 if saturation > 0.1 else value), 1.0)
     names = ("line_width", "tint", "text")
     return _looks(kept, **{name: getattr(preferences, name) for name in names if hasattr(preferences, name)})
 
 
 def faint(color: Color, opacity: float) -> Color:
     return (*color[:3], color[3] * opacity)
-
-
-def vivid(color: Sequence[float]) -> Color:
-    """Return a color of the theme as bright as it can be in its hue: on a surface thin lines look darker than they are."""
-    hue, saturation, value = colorsys.rgb_to_hsv(*color[:3])
-    red, green, blue = colorsys.hsv_to_rgb(hue, min(saturation, 0.85), 1.0 if saturation > 0.1 else value)
-    return red, green, blue, 1.0
 
 
 def hue_colors(opacity: float) -> list[Color]:
@@ -131,5 +145,5 @@ def _light(hue: float) -> tuple[float, float, float]:
     rgb = np.array(colorsys.hsv_to_rgb(hue, 0.85, 1.0))
     brightness = float(rgb @ (0.2126, 0.7152, 0.0722))
     white = max(0.0, (_BRIGHTNESS - brightness) / (1.0 - brightness))
-    red, green, blue = (rgb + white * (1.0 - rgb)) * min(1.0, _BRIGHTNESS / brightness)
-    return float(red), float(green), float(blue)
+    red, green, blue = ((rgb + white * (1.0 - rgb)) * min(1.0, _BRIGHTNESS / brightness)).tolist()
+    return red, green, blue

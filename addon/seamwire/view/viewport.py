@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.picking.camera import Camera
+from ..core.picking.picker import Camera
 
 if TYPE_CHECKING:
     import bpy
@@ -29,8 +29,6 @@ def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class Place:
-    """A pixel of a 3D view."""
-
     area: bpy.types.Area
     region: bpy.types.Region
     view: Camera  # how the view sees the world

@@ -59,12 +59,14 @@ def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
     found: list[Hint] = []
     for name, text, is_drag in _IDLE:
         key = keys.get(name)
-        if key is None:
-            continue
-        icon = f"{key.icon}_DRAG" if is_drag and key.icon == "MOUSE_LMB" else key.icon
-        before = key.modifiers if icon else key.text
-        found.append((icon or "NONE", f"{before}: {text}" if before else text))
+        if key is not None:
+            icon = f"{key.icon}_DRAG" if is_drag and key.icon == "MOUSE_LMB" else key.icon
+            found.append(_hint(icon, key.modifiers if icon else key.text, text))
     return found
+
+
+def _hint(icon: str, before: str, text: str) -> Hint:
+    return icon or "NONE", f"{before}: {text}" if before else text
 
 
 def hints(status: Status) -> list[Hint]:
@@ -80,10 +82,7 @@ def hints(status: Status) -> list[Hint]:
     if picture.message:
         found.append(("ERROR", picture.message))
     deeds = [*_click(picture), (Action.END, "End Chain"), (Action.KEYS, "Keys"), *_wires(picture), *_guides(status)]
-    for action, text in deeds:
-        icon, before = keys.icon(action)
-        if icon or before:
-            found.append((icon or "NONE", f"{before}: {text}" if before else text))
+    found += [_hint(*keys.icon(action), text) for action, text in deeds if keys.keys_of(action)]
     return found[:MOST]
 
 
@@ -93,18 +92,16 @@ def _click(picture: Picture) -> Iterator[Deed]:
     kinds, kind, number = offered.kinds, offered.kind, offered.number
     if kind is not None and offered.bends:
         yield Action.BEND, "Bend Closed Cut"
-        return
-    if kind is not None:
+    elif kind is not None:
         which = f", {number + 1} of {len(kinds)}" if len(kinds) > 1 else ""
         yield Action.LOOP, f"Add {_offer(kind)}{which}"
         if which:
             yield Action.NEXT, f"{_offer(kinds[(number + 1) % len(kinds)])} Instead"
-        return
-    click = _CLICKS.get(picture.intent.name)
-    if click:
-        yield Action.CLICK, click
-    if picture.seed is not None and choice.count > 1:
-        yield Action.NEXT, f"Next Candidate ({(choice.number + 1) % choice.count + 1} of {choice.count})"
+    else:
+        if picture.intent.name in _CLICKS:
+            yield Action.CLICK, _CLICKS[picture.intent.name]
+        if picture.seed is not None and choice.count > 1:
+            yield Action.NEXT, f"Next Candidate ({(choice.number + 1) % choice.count + 1} of {choice.count})"
 
 
 def _offer(kind: LoopKind) -> str:
@@ -117,11 +114,10 @@ def _wires(picture: Picture) -> Iterator[Deed]:
     from ..core.sketch.picture import Role
 
     is_along_edges = picture.options.along == "EDGES"
-    if picture.seed is not None:
-        if picture.can_close:
-            yield Action.CLOSE, "Close"
-        if is_along_edges:
-            yield Action.EXTEND, "Extend to End" if picture.one(Role.EXTENSION) is None else "Keep It"
+    if picture.seed is not None and picture.can_close:
+        yield Action.CLOSE, "Close"
+    if picture.seed is not None and is_along_edges:
+        yield Action.EXTEND, "Extend to End" if picture.one(Role.EXTENSION) is None else "Keep It"
     wire = picture.one(Role.HOVERED)
     if wire is not None:
         yield Action.REMOVE, "Remove Wire"

@@ -28,13 +28,6 @@ class Event(Protocol):
     is_tablet: bool
 
 
-class Preferences(Protocol):
-    """The part of Blender's preferences that is read."""
-
-    inputs: Any
-    system: Any
-
-
 @dataclass(frozen=True)
 class Key:
     """A key or a button with its modifiers: 1 held, 0 not held, -1 either."""
@@ -71,8 +64,8 @@ class Key:
     @property
     def text(self) -> str:
         double = "Double-" if self.value == "DOUBLE_CLICK" else ""
-        name = double + _NAMES.get(self.type, self.type.replace("_", " ").title())
-        return f"{self.modifiers} {name}".strip()
+        name = _NAMES.get(self.type, self.type.replace("_", " ").title())
+        return f"{self.modifiers} {double}{name}".strip()
 
     @property
     def icon(self) -> str:
@@ -152,9 +145,10 @@ _NAMES = {
     "ACCENT_GRAVE": "`",
     "COMMA": ",",
     "PERIOD": ".",
-    **dict(
-        zip(("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"), "0123456789", strict=True)
-    ),
+    **{
+        name: str(i)
+        for i, name in enumerate(["ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"])
+    },
 }
 _ICONS = {
     "LEFTMOUSE": "MOUSE_LMB",
@@ -206,13 +200,13 @@ class Bindings:
     def text(self, action: Action) -> str:
         """Return the keys of an action in words; an empty string where it has none."""
         keys = self.keys_of(action)
-        merged = list(keys)
-        # Both ways of the wheel are one thing to say.
-        for key in keys:
-            if key.type == WHEEL[0] and replace(key, type=WHEEL[1]) in keys:
-                merged[merged.index(key)] = replace(key, type="WHEEL")
-                merged.remove(replace(key, type=WHEEL[1]))
-        return ", ".join(key.text for key in merged)
+
+        def name(key: Key) -> str:
+            # Both ways of the wheel are one thing to say.
+            is_both = key.type in WHEEL and all(replace(key, type=way) in keys for way in WHEEL)
+            return replace(key, type="WHEEL").text if is_both else key.text
+
+        return ", ".join(dict.fromkeys(map(name, keys)))
 
     def icon(self, action: Action) -> tuple[str, str]:
         """Return the icon of an action's first key, no double click if possible, and the text before its name."""
@@ -227,11 +221,9 @@ class Bindings:
 
     def groups(self) -> dict[str, list[tuple[str, str]]]:
         """Return each action with its keys, in words, for a table with the headings of the groups."""
-        found: dict[str, list[tuple[str, str]]] = {action.group: [] for action in Action}
-        for action in Action:
-            if self.keys_of(action):
-                found[action.group].append((self.text(action), action.text))
-        return found
+        groups = dict.fromkeys(action.group for action in Action)
+        bound = [action for action in Action if self.keys_of(action)]
+        return {name: [(self.text(each), each.text) for each in bound if each.group == name] for name in groups}
 
 
 class DoubleClicks:
@@ -243,28 +235,28 @@ class DoubleClicks:
 
     def __init__(self) -> None:
         self._pressed: tuple[int, int] | None = None
-        self._released: tuple[str, float, int, int] | None = None
+        self._released: tuple[str, float, tuple[int, int]] | None = None
 
-    def is_second(self, event: Event, now: float, preferences: Preferences) -> bool:
+    def is_second(self, event: Event, now: float, preferences: Any) -> bool:  # noqa: ANN401 - Blender's
         """Whether an event is the second press of a double click, `now` in seconds. To be asked of every event of the mouse's buttons."""
         if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
             return False
-        pressed, self._pressed = self._pressed, (event.mouse_x, event.mouse_y) if event.value == "PRESS" else None
-        if event.value == "RELEASE":
-            # A drag does not count as a first click.
-            moved = max(abs(event.mouse_x - pressed[0]), abs(event.mouse_y - pressed[1])) if pressed else 0
-            here = (event.type, now, event.mouse_x, event.mouse_y)
-            self._released = here if moved <= drag_threshold(event, preferences) else None
-            return False
+        here = event.mouse_x, event.mouse_y
+        pressed, self._pressed = self._pressed, here if event.value == "PRESS" else None
         released, self._released = self._released, None
-        if released is None or event.value != "PRESS" or released[0] != event.type:
+
+        def is_near(other: tuple[int, int]) -> bool:
+            away = max(abs(here[0] - other[0]), abs(here[1] - other[1]))
+            return away <= drag_threshold(event, preferences)
+
+        if event.value == "RELEASE" and (pressed is None or is_near(pressed)):  # a drag does not count as a first click
+            self._released = event.type, now, here
+        if event.value != "PRESS" or released is None or released[0] != event.type:
             return False
-        soon = (now - released[1]) * 1000.0 < preferences.inputs.mouse_double_click_time
-        away = max(abs(event.mouse_x - released[2]), abs(event.mouse_y - released[3]))
-        return soon and away <= drag_threshold(event, preferences)
+        return (now - released[1]) * 1000.0 < preferences.inputs.mouse_double_click_time and is_near(released[2])
 
 
-def drag_threshold(event: Event, preferences: Preferences) -> float:
+def drag_threshold(event: Event, preferences: Any) -> float:  # noqa: ANN401 - Blender's
     """Return how many pixels a button must be moved to drag: as Blender counts, more on a display of larger scale."""
     inputs = preferences.inputs
     threshold = inputs.drag_threshold_tablet if event.is_tablet else inputs.drag_threshold_mouse

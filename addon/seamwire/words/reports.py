@@ -1,17 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators report, with numbers and picks by the names that artists read."""
+"""What operators report, with numbers and picks by the names that artists read, and what keeps reports until they are shown."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from ..terms.choices import PARTS_BY
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from ..core.islands.map_faults import MapFaults
     from ..core.islands.square_use import CostlyIsland, SquareUse
     from ..core.sketch.change import Change
+    from ..terms.choices import PartsBy
+
+LEVELS = ("INFO", "WARNING", "ERROR")
+
+
+class Notice(NamedTuple):
+    level: Literal["INFO", "WARNING", "ERROR"]
+    text: str
+
+
+class Notices:
+    """What waits to be reported, and what the status bar shows."""
+
+    def __init__(self) -> None:
+        self.hint = ""  # the result of the last key, for the status bar
+        self._waiting: list[Notice] = []
+
+    def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
+        """Add something to report, unless the same text waits already."""
+        notice = Notice(level, text)
+        if notice not in self._waiting:
+            self._waiting.append(notice)
+
+    def take(self) -> list[Notice]:
+        """Return what waits to be reported, errors last, and forget it."""
+        waiting, self._waiting = self._waiting, []
+        return sorted(waiting, key=lambda notice: LEVELS.index(notice.level))
+
+    def tell(self, report: Callable[[set[str], str], None]) -> None:
+        """Report what waits, once. `report` takes the level and the text, as operators of Blender do."""
+        for level, text in self.take():
+            report({level}, text)
 
 
 def count(number: int, what: str, several: str = "") -> str:
@@ -50,14 +85,12 @@ def not_cut(faces: int, wires: int) -> list[str]:
 
 def in_words(faults: MapFaults) -> list[str]:
     """Return what is wrong with islands that were unwrapped. The list is empty if nothing is wrong."""
-    parts = []
-    if faults.overlapping:
-        parts.append(count(faults.overlapping, "island overlaps", "islands overlap"))
-    if faults.flipped:
-        parts.append(f"{count(faults.flipped, 'face')} turned over")
-    if faults.outside:
-        parts.append(f"{count(faults.outside, 'island')} outside the UV square")
-    return parts
+    parts = [
+        (faults.overlapping, count(faults.overlapping, "island overlaps", "islands overlap")),
+        (faults.flipped, f"{count(faults.flipped, 'face')} turned over"),
+        (faults.outside, f"{count(faults.outside, 'island')} outside the UV square"),
+    ]
+    return [text for number, text in parts if number]
 
 
 _LITTLE = 0.45
@@ -106,3 +139,67 @@ def not_reached(stretches: Sequence[float], wanted: float) -> str:
     if len(stretches) > 1:
         return f"{beyond} of {len(stretches)} objects above {percent(wanted)}"
     return f"{percent(wanted)} was not reached"
+
+
+LIVE_HINTS = (
+    "Click Border: Drop or Keep",
+    "Click Part: Cut",
+    "Ctrl Z: Undo",
+    "Enter: Keep",
+)
+"""The artist's choices while the parts are shown, without those that the corner of the view has."""
+OTHER_KEY = "Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here"
+NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
+NOTHING_TO_REDO = "Nothing to redo"
+
+
+def parts_text(by: PartsBy, amount: float, number: int, stretch: float) -> str:
+    """Return the text on an amount of parts, from 0 to 1, their number, and the limit of the stretch in percent."""
+    parts = "Parts" if by == "AUTO" else f"Parts by {PARTS_BY[by].name}"
+    return f"{parts}: {100.0 * amount:.0f} %, {count(number, 'part')}    Stretch: up to {stretch:.3g} %"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The result of a suggestion for all objects together. Stretch is in percent."""
+
+    wires: int
+    marked: int  # edges
+    islands: int
+    exposed: int = 0  # the wires in full view, which islands need to lie flat
+    islands_wanted: int = 0  # the number of islands that was asked for but not reached; 0 if it was reached
+    stretch: float | None = None  # the mean of all maps; None if there are no maps
+    stretches: Sequence[float] = ()  # of each object's map
+    stretch_wanted: float = 0.0
+    unwrapped: int | None = None  # the number of islands; None if nothing was to be unwrapped, or could be
+    faults: MapFaults | None = None  # of these islands
+    used: SquareUse | None = None  # by the maps in the meshes; None if there are no maps
+
+    @property
+    def is_good(self) -> bool:
+        return not (self._problems() or self.faults)
+
+    @property
+    def text(self) -> str:
+        problems, of_map, faults = self._problems(), [], [] if self.faults is None else in_words(self.faults)
+        if self.stretch is not None and math.isfinite(self.stretch):
+            of_map.append(f"stretch {percent(self.stretch)}")
+        if faults or self.unwrapped:
+            of_map += faults or ["no overlap"]
+        if not self.wires:
+            if problems:
+                return f"No useful seam found: {', '.join([*of_map, *problems])}"
+            if self.unwrapped:
+                return ", ".join([f"No seam needed: {count(self.unwrapped, 'island')} unwrapped", *faults])
+            return "Nothing to add: all islands already unwrap within the limit"
+        parts = [count(self.wires, "wire")]
+        if self.exposed:
+            parts.append(f"{self.exposed} in full view")
+        if self.marked:
+            parts.append(f"{count(self.marked, 'edge')} marked")
+        used = [] if self.used is None else [square_used(self.used)]
+        return ", ".join([*parts, count(self.islands, "island"), *of_map, *problems, *used])
+
+    def _problems(self) -> list[str]:
+        short = f"fewer than {self.islands_wanted} because no island can be cut further" if self.islands_wanted else ""
+        return [text for text in (short, not_reached(self.stretches, self.stretch_wanted)) if text]

@@ -6,8 +6,7 @@ from dataclasses import replace
 import pytest
 from seamwire.core.islands.map_faults import MapFaults
 from seamwire.core.islands.square_use import SquareUse
-from seamwire.words.reports import in_words, is_beyond, not_reached, percent
-from seamwire.words.search_report import Outcome
+from seamwire.words.reports import Outcome, in_words, is_beyond, not_reached, percent
 
 
 def test_a_good_result_is_told_in_numbers() -> None:

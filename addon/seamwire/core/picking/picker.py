@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from operator import is_not
 from typing import TYPE_CHECKING
 
@@ -20,11 +21,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..base.mesh_arrays import Arrays
-    from ..fields.crests import Crests
     from ..network.picks import Pick
     from ..network.wires import Wire
+    from ..offers.crests import Crests
     from ..sketch.sketch import Sketch
-    from .camera import Camera
 
 Bend = Callable[["NDArray[np.float64]"], "NDArray[np.float64]"]
 REACH = 14.0
@@ -35,6 +35,31 @@ _SEEDS, _WIRES, _CURVES, _SEAMS, _CRESTS = range(5)
 """The layers of the library's picker. Those before the seams are empty until they are set."""
 _SEED_REACH, _WIRE_REACH, _SEAM_REACH, _CREST_REACH = 9.0, 6.0, 4.0, 10.0
 """Pixels beside each in which it is found: few for seams, because edges beside them can be picked too."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """How a region sees the world. Its size is in pixels.
+
+    Attributes
+    ----------
+    perspective
+        (4, 4), takes world coordinates to clip space.
+    clipped
+        (k, 4) the planes of Blender's clipping border: what lies on the negative side of one is not shown.
+    """
+
+    width: float
+    height: float
+    perspective: NDArray[np.float64]
+    clipped: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 4)))
+
+    def to_pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Project (n, 3) world points to (n, 2) pixels from the bottom left; NaN behind the viewer, or where clipped away."""
+        clip = points @ self.perspective[:, :3].T + self.perspective[:, 3]
+        shown = (points @ self.clipped[:, :3].T + self.clipped[:, 3] >= 0.0).all(axis=1)
+        w = np.where((clip[:, 3] > 1e-9) & shown, clip[:, 3], np.nan)[:, None]
+        return (clip[:, :2] / w * 0.5 + 0.5) * (self.width, self.height)
 
 
 class Picker:
@@ -182,23 +207,20 @@ class Picker:
         moved, followed = session.moved
         picks = tuple(pick for pick in session.seeds() if pick not in followed)
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
-        if not self._is_new("drawn", picks, wires):
-            return
-        self._seeds, self._wires = picks, wires
-        places = [place_of(pick, self._arrays.points) for pick in self._seeds]
-        ends = np.repeat(np.reshape(places, (-1, 3)), 2, axis=0)
-        self._core.set_layer(_SEEDS, ends, np.arange(len(places)), _SEED_REACH)
-        self._set_curves(_WIRES, [wire.points for wire in wires], _WIRE_REACH)
+        if self._is_new("drawn", picks, wires):
+            self._seeds, self._wires = picks, wires
+            ends = np.repeat(np.reshape([place_of(pick, self._arrays.points) for pick in picks], (-1, 3)), 2, axis=0)
+            self._core.set_layer(_SEEDS, ends, np.arange(len(picks)), _SEED_REACH)
+            self._set_curves(_WIRES, [wire.points for wire in wires], _WIRE_REACH)
 
     def _is_new(self, name: str, *key: object) -> bool:
         before, self._told[name] = self._told.get(name), key
         return before != key
 
     def _set_curves(self, layer: int, curves: Sequence[NDArray[np.float64]], reach: float) -> None:
-        seen = [self._bend(curve) for curve in curves]
-        ends = [np.empty((0, 3)), *(np.stack([one[:-1], one[1:]], axis=1).reshape(-1, 3) for one in seen)]
-        owners = np.repeat(np.arange(len(seen)), [len(pair) // 2 for pair in ends[1:]])
-        self._core.set_layer(layer, np.concatenate(ends), owners, reach)
+        pieces = [np.stack([seen[:-1], seen[1:]], axis=1).reshape(-1, 3) for seen in map(self._bend, curves)]
+        owners = np.repeat(np.arange(len(pieces)), [len(ends) // 2 for ends in pieces])
+        self._core.set_layer(layer, np.concatenate([np.empty((0, 3)), *pieces]), owners, reach)
 
 
 def _seen_by(camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]) -> tuple:

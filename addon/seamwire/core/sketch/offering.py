@@ -8,10 +8,10 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from ..base.refused import Refused
-from ..fields.crests import CREST_KINDS
 from ..network.network import Given, How, Snap, Sought
 from ..network.picks import FacePoint, pick_name, undirected
 from ..network.wires import Wire
+from ..offers.crests import CREST_KINDS
 from ..offers.edge_loops import EdgeLoops, taken
 from ..offers.part_search import PartSearch
 from ..offers.surface_loops import SurfaceLoops
@@ -22,9 +22,9 @@ from .lining import Lining
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..fields.crests import Crests
     from ..network.network import Network
     from ..network.picks import Edge, Pick
+    from ..offers.crests import Crests
     from ..offers.surface_loops import TakenCut
     from ..solver.solver import LiveWire
     from .board import Board

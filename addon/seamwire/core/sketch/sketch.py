@@ -34,11 +34,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from ..fields.crests import Crests
     from ..network.network import Request
     from ..network.picks import Edge, Pick
     from ..network.strokes import ActsOn
     from ..network.wires import Wire
+    from ..offers.crests import Crests
     from ..solver.solver import LiveWire
     from .picture import Picture
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from real_sessions import session_on
-from seamwire.core.fields.crests import Crests
 from seamwire.core.network.picks import FacePoint, Pick
+from seamwire.core.offers.crests import Crests
 from seamwire.core.sketch.offering import NO_CUT
 from seamwire.core.sketch.picture import Role
 from seamwire.terms.choices import Along

@@ -8,8 +8,7 @@ import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.network import Snap
-from seamwire.core.picking.camera import Camera
-from seamwire.core.picking.picker import Picker
+from seamwire.core.picking.picker import Camera, Picker
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
 

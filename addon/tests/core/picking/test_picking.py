@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.network.wires import Wire
-from seamwire.core.picking.camera import Camera
-from seamwire.core.picking.picker import Picker
+from seamwire.core.offers.crests import Crests
+from seamwire.core.picking.picker import Camera, Picker
 from seamwire.terms.options import Options
 
 pytest.importorskip("seamwire_core")

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from seamwire.core.seams.seam_plan import PartChoice, PartEdits, parted_by_next
 from seamwire.terms.choices import PARTS_BY
-from seamwire.words.search_report import parts_text
+from seamwire.words.reports import parts_text
 
 
 def test_each_row_keeps_its_amount_and_edits_and_limits_are_common() -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.fields.crests import Crests
 from seamwire.core.network.picks import FacePoint
+from seamwire.core.offers.crests import Crests
 
 sw = pytest.importorskip("seamwire_core")
 
