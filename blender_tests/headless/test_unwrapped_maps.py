@@ -16,7 +16,7 @@ from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.mesh.seam_islands import labels_of
-from seamwire.operators.after_chain import unwrap_after_chain
+from seamwire.tool.chain import unwrap_after_chain
 
 
 def add_torus() -> None:

@@ -15,8 +15,8 @@ from scene import add_grid, chain, edit, seams
 from seamwire.core.sketch.courses import Courses
 from seamwire.core.sketch.dragging import Dragging
 from seamwire.core.sketch.sketch import Sketch
-from seamwire.operators.chain_state import Stage
-from seamwire.operators.draw import MESH_OT_seamwire_draw
+from seamwire.tool.draw import MESH_OT_seamwire_draw
+from seamwire.tool.running import Stage
 from seamwire.view.edited_objects import edited
 from seamwire.words.reports import Notice
 from slow import Slow

@@ -13,9 +13,9 @@ import ui as driver
 from desk import Desk, dismiss, draw
 from scene import chain, edit, seams
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.operators import chain_events
-from seamwire.operators.chain import Chain
-from seamwire.operators.chain_state import TRANSITIONS, Cue, Stage
+from seamwire.tool import events as chain_events
+from seamwire.tool.chain import Chain
+from seamwire.tool.running import TRANSITIONS, Cue, Stage
 from seamwire.view.edited_objects import edited
 from slow import Slow
 

@@ -10,9 +10,9 @@ import ui as driver
 from desk import Desk, choose
 from keymaps import KEYMAPS, Gesture, as_event, gestures, using
 from scene import chain, seams
-from seamwire.operators.chain_acts import act
-from seamwire.operators.chain_events import read
-from seamwire.operators.chain_state import Stage
+from seamwire.tool.acts import act
+from seamwire.tool.events import read
+from seamwire.tool.running import Stage
 from seamwire.words.keys import KEYS, Key
 
 

@@ -5,7 +5,7 @@ import bpy
 import pytest
 from desk import Desk, choose
 from seamwire.mesh.versions import IS_OLD
-from seamwire.operators import chain_status
+from seamwire.tool import running as chain_status
 from seamwire.ui import status_bar
 
 pytestmark = pytest.mark.every_blender

@@ -23,12 +23,12 @@ from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.mesh.settings import preferences
-from seamwire.operators import keymaps as operators_keymaps
-from seamwire.operators import suggest, suggest_live
-from seamwire.operators.chain_state import running as chains
-from seamwire.operators.other_windows import listening
 from seamwire.operators.steps import Stepwise
-from seamwire.operators.steps import running as searches
+from seamwire.suggest import live_parts as suggest_live
+from seamwire.suggest import suggest_seams as suggest
+from seamwire.tool import keymaps as operators_keymaps
+from seamwire.tool.running import chains, listening
+from seamwire.tool.running import steps as searches
 from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
 from seamwire.words.reports import NOTHING_TO_UNDO, OTHER_KEY

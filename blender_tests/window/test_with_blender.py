@@ -23,11 +23,12 @@ from seamwire.core.sketch.wiring import Wiring
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL, settings
-from seamwire.operators import chain as chain_module
-from seamwire.operators import chain_events, keymaps
-from seamwire.operators.chain_state import running
-from seamwire.operators.drag_handlers import LineHold
-from seamwire.operators.other_windows import listening
+from seamwire.tool import chain as chain_module
+from seamwire.tool import events as chain_events
+from seamwire.tool import keymaps
+from seamwire.tool.holds import LineHold
+from seamwire.tool.running import chains as running
+from seamwire.tool.running import listening
 from seamwire.view import edited_objects
 from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.object_view import ObjectView
@@ -518,7 +519,7 @@ def break_while_held(desk: Desk, broken: pytest.MonkeyPatch) -> None:
 
 BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
     "hover": lambda desk, broken: broken.setattr(Sketch, "hover", fail),
-    "hints": lambda desk, broken: broken.setattr(chain_module, "status_drawer", fail),
+    "hints": lambda desk, broken: broken.setattr(chain_module, "show_status", fail),
     "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
     "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
     "ending": lambda desk, broken: broken.setattr(Sketch, "end_chain", fail),

@@ -7,6 +7,7 @@ import traceback
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
+from ..tool.running import NeedsEditMode
 from ..words.reports import ALL_HIDDEN, HALFWAY
 
 if TYPE_CHECKING:
@@ -26,19 +27,6 @@ def description_of_item(name: str) -> classmethod:
         return properties.bl_rna.properties[name].enum_items[getattr(properties, name)].description
 
     return classmethod(description)
-
-
-class NeedsEditMode:
-    """Gives an operator its poll: a mesh must be in Edit Mode."""
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode. If not, the tooltip of a disabled button says so."""
-        obj = context.active_object
-        if context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH":
-            return True
-        cls.poll_message_set("Needs a mesh in Edit Mode")
-        return False
 
 
 class Halfway(Exception):  # noqa: N818 - reads as a state of the work

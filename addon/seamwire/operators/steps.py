@@ -13,22 +13,19 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .chain_state import running as chains
+from ..tool.keymaps import is_for_blender, right_click_cancels, undoes
+from ..tool.running import chains, listen, show_status
+from ..tool.running import steps as running
 from .edit_mesh_operator import EditMeshOperator
-from .keymaps import is_for_blender, right_click_cancels, undoes
-from .other_windows import listen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from concurrent.futures import Future
-
-    from .suggest_live import LiveParts
+    from typing import Any
 
     Progress = Callable[[float], bool]
     """Takes the finished fraction, and returns whether to continue."""
 
-running: list[Stepwise] = []
-"""The operators that take steps beside the interface at the moment."""
 _ALWAYS = frozenset({"TIMER", "RET", "NUMPAD_ENTER"})
 """Events that count wherever the mouse is."""
 _PERIOD = 0.02
@@ -57,7 +54,7 @@ class Step:
     text: str
     work: Callable[[Progress], None] | None = None
     look: Callable[[], str] | None = None
-    hand: LiveParts | None = None
+    hand: Any = None
 
 
 class AfterChain(EditMeshOperator):
@@ -299,9 +296,7 @@ class Stepwise(AfterChain):
         if text == self._said:
             return
         self._said = text
-        # A function is shared by the status bars of all workspaces, and a text is not.
-        draw = None if text is None else lambda header, _context: header.layout.label(text=text)
-        bpy.data.workspaces[0].status_text_set(draw)
+        show_status(None if text is None else [("NONE", text)])
 
 
 def end_all() -> None:

@@ -11,11 +11,11 @@ import bpy
 
 from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, preferences, settings
-from ..operators import keymaps
-from ..operators.edit_mesh_operator import NeedsEditMode
 from ..operators.island_operators import ISLAND_ITEMS
-from ..operators.keymaps import HELP_PANEL
 from ..terms.options import SETTINGS
+from ..tool import keymaps
+from ..tool.keymaps import HELP_PANEL
+from ..tool.running import NeedsEditMode
 from ..words.corner import STEPS
 from .toolbar import VIEWS
 

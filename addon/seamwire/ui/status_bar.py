@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 from bl_ui.space_statusbar import STATUSBAR_HT_header
 
 from ..mesh.settings import tool_is_active
-from ..operators import keymaps, steps
-from ..operators.chain_state import running
-from ..operators.chain_status import draw_hints
+from ..tool import keymaps
+from ..tool.running import chains, draw_hints, steps
 from ..words.hints import idle_hints
 from . import toolbar
 
@@ -35,7 +34,7 @@ def tool_keys(manager: bpy.types.WindowManager) -> dict[str, keymaps.Key]:
 
 def is_busy(context: bpy.types.Context) -> bool:
     """Return whether an operator is running. Blender 3.4 tells only of those of this add-on."""
-    return bool(running or steps.running or getattr(context.window, "modal_operators", ()))
+    return bool(chains or steps or getattr(context.window, "modal_operators", ()))
 
 
 def register() -> None:

@@ -11,10 +11,11 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import ADDON, TOOL, settings, tool_is_active
-from ..operators import hover, island_operators
-from ..operators.keymaps import ACTION_OPERATOR, HELP_PANEL, NAME
+from ..operators import island_operators
 from ..terms.choices import ALONG
 from ..terms.options import SETTINGS, strength_name
+from ..tool import draw
+from ..tool.keymaps import ACTION_OPERATOR, HELP_PANEL, NAME
 from ..words.keys import KEYS, Action
 
 if TYPE_CHECKING:
@@ -160,7 +161,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
     )
     bl_icon = str(_ICON) if _ICON.with_suffix(".draw.dat").exists() else "ops.mesh.knife_tool"
     bl_cursor = "CROSSHAIR"
-    bl_widget = hover.GROUP
+    bl_widget = draw.GROUP
     bl_keymap = (
         _key("CLICK"),
         _key("CLICK", ctrl=True),
@@ -181,7 +182,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
             {"properties": [("which", "WORST")]},
         ),
         ("wm.call_panel", {"type": "F1", "value": "PRESS"}, {"properties": [("name", HELP_PANEL)]}),
-        (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
+        (draw.HOVER, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 
     @staticmethod

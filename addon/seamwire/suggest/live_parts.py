@@ -15,12 +15,12 @@ import bpy
 
 from ..core.base import native
 from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, parted_by_next, turned, turned_limit
+from ..tool import keymaps
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.corner import FoundMap, rows_of_parts
 from ..words.keys import MODIFIER_KEYS, Action
 from ..words.reports import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
-from . import keymaps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

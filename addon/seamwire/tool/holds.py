@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..words.keys import MODIFIERS
-from . import undo_steps
+from .running import DRAW, EDIT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -91,7 +91,7 @@ class SeedHold(Hold):
     def end(self) -> str:
         """Leave the seed there."""
         self._session.drag_end()
-        return undo_steps.EDIT
+        return EDIT
 
     def cancel(self) -> None:
         """Let the seed go back."""
@@ -167,7 +167,7 @@ class LineHold(Hold):
     def end(self) -> str:
         """Keep the wires that follow the line."""
         self._session.line_end()
-        return undo_steps.DRAW
+        return DRAW
 
     def cancel(self) -> None:
         """Forget the line."""
@@ -216,7 +216,7 @@ class StrokeHold(Hold):
             attracts=self.attracts,
             radius=self._view.options.stroke_radius or None,  # 0: as many rings as the library takes
         )
-        return undo_steps.DRAW
+        return DRAW
 
     def cancel(self) -> None:
         """Forget it."""

@@ -13,10 +13,10 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ..mesh.registration import classes, handler, together
+from ..operators.edit_mesh_operator import changing
+from ..operators.seam_operators import cut_wires
+from ..operators.steps import Step, Stepwise, end_all
 from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, PARTS_BY, items
-from .edit_mesh_operator import changing
-from .finish import cut_wires
-from .steps import Step, Stepwise, end_all
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -160,7 +160,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
         from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
-        from .suggest_live import LiveParts
+        from .live_parts import LiveParts
 
         with closing(PlanPreview()) as preview:
             live = LiveParts(search, preview, choice, lambda: self.enough)

@@ -7,7 +7,7 @@ import ast
 import re
 from pathlib import Path
 
-from seamwire.operators.chain_state import TRANSITIONS, Cue, Stage
+from seamwire.tool.running import TRANSITIONS, Cue, Stage
 
 ROOT = Path(__file__).parents[2]
 

@@ -13,11 +13,11 @@ from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
-from . import keymaps, undo_steps
-from .chain_events import Meant, Sign
-from .chain_state import Cue, Stage
-from .drag_handlers import LineHold, SeedHold, StrokeHold
+from . import keymaps
+from .events import Meant, Sign
+from .holds import LineHold, SeedHold, StrokeHold
 from .keymaps import HELP_PANEL
+from .running import DRAW, EDIT, Cue, Stage
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,7 +92,7 @@ def release(chain: Chain, given: Meant) -> None:
     chain.go(Cue.RELEASE)
     if not hold.is_drag and hold.snap is not None:
         chain.session.click(hold.snap)
-        title = undo_steps.DRAW
+        title = DRAW
     elif hold.is_drag:
         title = hold.end()
     if title:
@@ -127,13 +127,13 @@ def click(chain: Chain, given: Meant) -> None:
     if action is Action.NEW_CHAIN:
         session.start(snap)
         session.hover(snap)
-        chain.note(undo_steps.DRAW)
+        chain.note(DRAW)
     elif action is Action.BEND:
         session.bend(snap)
-        chain.note(undo_steps.EDIT)
+        chain.note(EDIT)
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
-        chain.note(undo_steps.DRAW)
+        chain.note(DRAW)
     elif session.network.seed is None and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
@@ -142,7 +142,7 @@ def click(chain: Chain, given: Meant) -> None:
         chain.go(Cue.PRESS, LineHold(event, view, place, snap))
     else:
         session.click(snap)
-        chain.note(undo_steps.DRAW)
+        chain.note(DRAW)
 
 
 def _is_loop(chain: Chain, session: Sketch, snap: Snap, event: bpy.types.Event) -> bool:
@@ -203,7 +203,7 @@ def remove(chain: Chain, given: Meant) -> bool:
         view.session.drop(wire)
     else:
         view.session.erase(stroke)
-    chain.note(undo_steps.EDIT)
+    chain.note(EDIT)
     rehover(chain, given.place)
     return True
 
@@ -218,7 +218,7 @@ def retrace(chain: Chain, given: Meant) -> bool:
     view.session.hover(Snap(wire.start, "WIRE", wire))
     view.session.retrace(wire)
     view.turned = wire, given.place
-    chain.note(undo_steps.EDIT)
+    chain.note(EDIT)
     return True
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator of the tool: it draws chains, loops and strokes, and moves seeds."""
+"""The operator of the tool: it draws chains, loops and strokes, and moves seeds. Others listen elsewhere, or while nothing runs."""
 
 from __future__ import annotations
 
@@ -12,14 +12,11 @@ from bpy.app.handlers import persistent
 
 from ..core.base.native import NativeError
 from ..mesh.registration import classes, handler, together
-from ..mesh.settings import ADDON, notices, preferences, settings
+from ..mesh.settings import ADDON, notices, preferences, settings, tool_is_active
 from ..terms.choices import ALONG, items
 from ..words.keys import Action, Key
-from .chain_state import Stage, running
-from .edit_mesh_operator import NeedsEditMode
 from .keymaps import keys, takes
-from .other_windows import OPERATOR, listen, listening, stop_listening
-from .steps import running as steps
+from .running import LISTEN, NeedsEditMode, Stage, chains, listen, listening, steps
 
 if TYPE_CHECKING:
     from .chain import Chain
@@ -54,8 +51,8 @@ class _Follows:
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to the chain, and finish when the chain has ended."""
-        from .chain_acts import act
-        from .chain_events import read
+        from .acts import act
+        from .events import read
 
         chain = self._chain
         if chain.stage is Stage.CLOSED:
@@ -116,7 +113,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
         """Return whether a mesh is in Edit Mode and no chain is being drawn in the window."""
         if not super().poll(context):
             return False
-        if any(chain.window == context.window for chain in running):
+        if any(chain.window == context.window for chain in chains):
             cls.poll_message_set("A chain is already being drawn")
             return False
         return True
@@ -126,17 +123,17 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
         from ..mesh.edit_mesh import NothingVisibleError
         from ..view.edited_objects import edited
         from ..view.viewport import place_of
+        from .acts import act_first, has_target
         from .chain import Chain
-        from .chain_acts import act_first, has_target
-        from .chain_events import Meant, Sign
+        from .events import Meant, Sign
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
-        if running or steps:
+        if chains or steps:
             if self.first in _FOR_BLENDER:
                 return {"PASS_THROUGH"}
-            listen((running or steps)[0].window)  # this window is a new one
-            self.report({"WARNING"}, _CHAIN_ELSEWHERE if running else _STEPS_ELSEWHERE.format(steps[0].bl_label))
+            listen((chains or steps)[0].window)  # this window is a new one
+            self.report({"WARNING"}, _CHAIN_ELSEWHERE if chains else _STEPS_ELSEWHERE.format(steps[0].bl_label))
             return {"CANCELLED"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             self.report({"ERROR"}, "Drawing needs a 3D view in this window")
@@ -181,8 +178,8 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to the chain, and finish when the chain has ended. Other windows may be new."""
-        if running:
-            listen(running[0].window)
+        if chains:
+            listen(chains[0].window)
         return super().modal(context, event)
 
     def _tell_problems(self, chain: Chain) -> None:
@@ -204,7 +201,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
 class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
     """Listen in a window beside that of what runs. A chain can be drawn in all windows"""  # noqa: D400 - a tooltip
 
-    bl_idname = OPERATOR
+    bl_idname = LISTEN
     bl_label = "Seamwire Listen"
     bl_options: ClassVar[set[str]] = {"INTERNAL"}
 
@@ -218,11 +215,11 @@ class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to what runs in another window. End when nothing runs."""
         result = {"PASS_THROUGH"}
-        if not (running or steps):
+        if not (chains or steps):
             result = {"CANCELLED", "PASS_THROUGH"}
-        elif not event.type.startswith("TIMER") and context.window != (running or steps)[0].window:
-            if running:
-                self._chain = running[0]
+        elif not event.type.startswith("TIMER") and context.window != (chains or steps)[0].window:
+            if chains:
+                self._chain = chains[0]
                 result = super().modal(context, event)
             else:
                 result = steps[0].overhear(context, event)
@@ -237,6 +234,77 @@ class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
             context.window_manager.event_timer_remove(timer)
 
 
+# Hovering: while no operator runs, the edge or vertex that a click would pick is highlighted. Blender asks a gizmo of the tool at each
+# motion of the mouse. In views without gizmos, an operator in the tool's keymap receives the motion and ends at once.
+
+GROUP = "SEAMWIRE_GGT_hover"
+HOVER = "mesh.seamwire_hover"
+_NOWHERE = -1
+
+
+def _hover(context: bpy.types.Context, location: tuple[int, int]) -> None:
+    # Imported only when the tool is used, so that Blender's start does not wait for NumPy.
+    from ..view.edited_objects import edited
+    from ..view.viewport import place_in
+
+    if not chains:
+        edited.hover(place_in(context.area, context.region, location))
+
+
+class MESH_OT_seamwire_hover(bpy.types.Operator):
+    """Highlight the edge or vertex under the mouse in views without gizmos"""  # noqa: D400 - a tooltip
+
+    bl_idname = HOVER
+    bl_label = "Seamwire Hover"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the mouse is over such a view and the tool is active."""
+        space = context.space_data
+        hidden = space is not None and space.type == "VIEW_3D" and not (space.show_gizmo and space.show_gizmo_tool)
+        return hidden and tool_is_active(context)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Receive the motion of the mouse."""
+        _hover(context, (event.mouse_region_x, event.mouse_region_y))
+        return {"PASS_THROUGH"}
+
+
+class SEAMWIRE_GT_hover(bpy.types.Gizmo):
+    """Receives the position of the mouse. It is invisible and cannot be grabbed."""
+
+    bl_idname = "SEAMWIRE_GT_hover"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw nothing, because the overlay draws the highlight."""
+
+    def test_select(self, context: bpy.types.Context, location: tuple[int, int]) -> int:
+        """Receive the position of the mouse, and return that no gizmo is there."""
+        if context.area is not None and context.area.type == "VIEW_3D":
+            _hover(context, location)
+        return _NOWHERE
+
+
+class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
+    """The gizmo of the tool."""
+
+    bl_idname = GROUP
+    bl_label = "Seamwire Hover"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "WINDOW"
+    bl_options = {"3D"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the tool is active in Edit Mode."""
+        return tool_is_active(context)
+
+    def setup(self, _context: bpy.types.Context) -> None:
+        """Create the gizmo."""
+        self.gizmos.new(SEAMWIRE_GT_hover.bl_idname)
+
+
 def tell_mirrored(operator: bpy.types.Operator) -> None:
     """Say why a click on a half that a modifier mirrors does nothing."""
     operator.report({"INFO"}, "This half comes from the Mirror modifier: click the other half")
@@ -245,21 +313,26 @@ def tell_mirrored(operator: bpy.types.Operator) -> None:
 @persistent
 def _on_save(*_: object) -> None:
     """Let files hold what is drawn so far."""
-    for chain in running:
+    for chain in chains:
         chain.attempt(chain.save)
 
 
 @persistent
 def _end_all(*_: object) -> None:
     """End the chain that is being drawn, and keep its wires. A file that cannot be loaded leaves the open one with them."""
-    for chain in tuple(running):
+    for chain in tuple(chains):
         chain.finish()
         chain.notices.tell(lambda _kind, text: print(f"Seamwire: {text}"))
 
 
 register, unregister = together(
-    *classes(MESH_OT_seamwire_draw, MESH_OT_seamwire_listen),
-    (lambda: None, stop_listening),
+    *classes(
+        MESH_OT_seamwire_draw,
+        MESH_OT_seamwire_listen,
+        MESH_OT_seamwire_hover,
+        SEAMWIRE_GT_hover,
+        SEAMWIRE_GGT_hover,
+    ),
     handler("save_pre", _on_save),
     handler("load_pre", _end_all),
     (lambda: None, _end_all),

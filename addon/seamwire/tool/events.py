@@ -12,15 +12,15 @@ from ..mesh import settings as chosen
 from ..view.viewport import place_of
 from ..words.keys import MODIFIER_KEYS, WHEEL, Action, Key
 from . import keymaps
-from .chain_state import Cue, Stage
-from .drag_handlers import LineHold, StrokeHold
+from .holds import LineHold, StrokeHold
+from .running import Cue, Stage
 
 if TYPE_CHECKING:
     import bpy
 
     from ..view.viewport import Place
     from .chain import Chain
-    from .drag_handlers import Hold
+    from .holds import Hold
 
 _HARMLESS = MODIFIER_KEYS.union(WHEEL)
 """Presses that change no mesh, wherever the mouse is."""

@@ -20,11 +20,9 @@ from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
 from ..words.hints import Status, hints
 from ..words.keys import DoubleClicks
-from ..words.reports import Notices, count, summary
-from . import keymaps, undo_steps
-from .after_chain import unwrap_after_chain
-from .chain_state import TRANSITIONS, Cue, Stage, running
-from .chain_status import status_drawer
+from ..words.reports import Notices, count, in_words, summary
+from . import keymaps, running
+from .running import DRAW, EDIT, TRANSITIONS, Cue, Stage, chains, show_status
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +31,7 @@ if TYPE_CHECKING:
     from ..core.sketch.sketch import Sketch
     from ..view.object_view import ObjectView
     from ..words.hints import Hint
-    from .drag_handlers import Hold
+    from .holds import Hold
 
 _Result = TypeVar("_Result")
 
@@ -88,8 +86,8 @@ class Chain:
         self._cleanup.callback(self._leave_window)
         chosen.listeners.append(self._on_settings)
         self._cleanup.callback(chosen.listeners.remove, self._on_settings)
-        running.append(self)
-        self._cleanup.callback(running.remove, self)
+        chains.append(self)
+        self._cleanup.callback(chains.remove, self)
 
     @property
     def session(self) -> Sketch:
@@ -210,7 +208,7 @@ class Chain:
             self._seams = view.mesh.arrays.seams
 
     def note(self, title: str) -> None:
-        """Note what was done, by a title of `undo_steps`."""
+        """Note what was done, by a title of a step of undo."""
         self._titles.add(title)
 
     def keep(self) -> None:
@@ -306,7 +304,7 @@ class Chain:
             fate = "are in the mesh as they were last saved" if is_known else "are in the mesh in part, undo leads back"
             self.has_kept = True
             if not at_once:
-                self.attempt(undo_steps.push, undo_steps.DRAW)
+                self.attempt(running.push, DRAW)
         self.notices.add("WARNING" if is_known else "ERROR", f"{error}: the wires of this chain {fate}")
         self.failure = None
 
@@ -327,7 +325,7 @@ class Chain:
             reports.clear()
         view = self.drawn_on
         change = None if view is None else Change(self._before, view.session.drawn)
-        title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
+        title = EDIT if self._titles == {EDIT} else DRAW
         self._titles.clear()
         if view is None or change is None or not (self._is_saved or change):
             self.drawn_on = None
@@ -352,7 +350,7 @@ class Chain:
         if not at_once:
             if (marked or cleared or done) and bpy.context.mode == "EDIT_MESH":
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(bpy.context)) or ""
-            self.attempt(undo_steps.push, title)
+            self.attempt(running.push, title)
         told = f"{title}: {done or summary(change, marked, cleared)}"
         self.notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
 
@@ -419,7 +417,7 @@ class Chain:
             self._cleanup.close()
 
     def _leave_window(self) -> None:
-        _set_status(None)
+        show_status(None)
         self.set_cursor("")
         if self.window in self.manager.windows.values():
             self._set_timer(False)
@@ -487,7 +485,7 @@ class Chain:
             edited.show()
             edited.redraw()
         if self._shown != before:
-            _set_status(status_drawer(self.hints()))
+            show_status(self.hints())
         # Last: what is shown may ask for more to be computed.
         self._set_timer(any(view.busy for view in edited.views()))
 
@@ -495,11 +493,6 @@ class Chain:
         self._shown = None
         if edited.front is not None:
             self.show()
-
-
-def _set_status(text: object) -> None:
-    # All workspaces share the status bar, and the one of the chain may have been deleted.
-    bpy.data.workspaces[0].status_text_set(text)
 
 
 def _leave_objects() -> None:
@@ -527,3 +520,19 @@ def _apply(view: ObjectView, change: Change) -> str:
     if done.text:
         edited.forget(view)
     return done.text
+
+
+def unwrap_after_chain(context: bpy.types.Context) -> str:
+    """Unwrap after a change of seams, as the tool or Blender is set. Return what went wrong, or an empty text."""
+    if not chosen.settings(context).unwrap:
+        from ..mesh import edit_mesh
+
+        edit_mesh.live_unwrap(context)
+        return ""
+    from ..core.base.native import NativeError
+    from ..mesh.unwrap import unwrap_changed
+
+    try:
+        return ", ".join(in_words(unwrap_changed(context).faults))
+    except (ValueError, NativeError) as error:
+        return str(error)
