@@ -26,7 +26,7 @@ from seamwire.mesh.settings import TOOL, settings
 from seamwire.tool import chain as chain_module
 from seamwire.tool import events as chain_events
 from seamwire.tool import keymaps
-from seamwire.tool.holds import LineHold
+from seamwire.tool.holds import Hold
 from seamwire.tool.running import chains as running
 from seamwire.tool.running import listening
 from seamwire.view import edited_objects
@@ -514,12 +514,12 @@ def break_timer(desk: Desk, broken: pytest.MonkeyPatch) -> None:
 def break_while_held(desk: Desk, broken: pytest.MonkeyPatch) -> None:
     desk.ui.event("LEFTMOUSE", "PRESS", desk.at(10))
     for name in ("move", "cancel"):
-        broken.setattr(LineHold, name, fail)
+        broken.setattr(Hold, name, fail)
 
 
 BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
     "hover": lambda desk, broken: broken.setattr(Sketch, "hover", fail),
-    "hints": lambda desk, broken: broken.setattr(chain_module, "show_status", fail),
+    "hints": lambda desk, broken: broken.setattr(chain_module.Chain, "hints", fail),
     "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
     "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
     "ending": lambda desk, broken: broken.setattr(Sketch, "end_chain", fail),

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import traceback
 from contextlib import ExitStack, nullcontext, suppress
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
@@ -22,10 +23,10 @@ from ..words.hints import Status, hints
 from ..words.keys import DoubleClicks
 from ..words.reports import Notices, count, in_words, summary
 from . import keymaps, running
-from .running import DRAW, EDIT, TRANSITIONS, Cue, Stage, chains, show_status
+from .running import DRAW, EDIT, chains, show_status
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping, Sequence
     from contextlib import AbstractContextManager
 
     from ..core.sketch.sketch import Sketch
@@ -35,6 +36,16 @@ if TYPE_CHECKING:
 
 _Result = TypeVar("_Result")
 
+STAGES: Mapping[str, Sequence[str]] = {
+    "READY": ("PEEKING", "DRAWING", "CLOSED"),
+    "PEEKING": ("DRAWING", "CLOSED"),
+    "DRAWING": ("HOLDING", "ENDING", "OVER", "CLOSED"),
+    "HOLDING": ("DRAWING",),
+    "ENDING": ("DRAWING", "OVER", "CLOSED"),
+    "OVER": ("CLOSED",),
+    "CLOSED": (),
+}
+"""The states of a chain, and those that can follow each. `docs/development/structure.md` says what they are, and what leads to them."""
 TICK = 0.008
 """Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
 
@@ -45,34 +56,38 @@ class Chain:
     Attributes
     ----------
     stage
-        The state. Only `go` changes it.
+        The state, a key of `STAGES`. Only `go` changes it.
     hold
-        The thing that a pressed button drags; None: no button is held.
+        The thing that a pressed button drags, or None. In *HOLDING* there is one.
     peek
-        The key that shows the loop under the mouse while it is held, or an empty text.
+        The key that shows the loop under the mouse while it is held, or an empty text. In *PEEKING* there is one.
     drawn_on
         The object that is drawn on. None if nothing has been drawn since the last step of undo.
     has_kept
         Whether the chain has changed a mesh.
     failure
         The error on which the chain ends, if there is one.
+    titles
+        The titles of the steps of undo for what was done, `DRAW` or `EDIT`.
     notices
-        What there is to report when the chain ends, and the hint about the last key.
+        What there is to report when the chain ends.
+    hint
+        The result of the last key, for the status bar.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
         self.window, self.workspace, self.manager = context.window, context.workspace, context.window_manager
         self._mouse_window = context.window
         self.keys, self.clicks = keymaps.keys(context), DoubleClicks()
-        self.notices = Notices()
+        self.notices, self.hint = Notices(), ""
         self.drawn_on: ObjectView | None = None
         self.has_kept = False
         self.failure: Exception | None = None
         self._before = Drawn()  # what the object that is drawn on had at the last step
         self._seams = np.empty((0, 2), dtype=np.int32)  # its seams then
-        self._titles: set[str] = set()
+        self.titles: set[str] = set()
         self._is_saved = False
-        self.stage = Stage.READY
+        self.stage = "READY"
         self.hold: Hold | None = None
         self.peek = ""
         self._timer: bpy.types.Timer | None = None
@@ -81,7 +96,7 @@ class Chain:
         self._cleanup = ExitStack()
         self._switched: dict[str, tuple[object, object]] = {}  # settings before a key changed them, and since then
         self._cleanup.callback(self._switch_back)
-        edited.chain = self._wake
+        edited.chain = partial(self._set_timer, True)  # nobody may move the mouse when a mesh changes
         self._cleanup.callback(_leave_objects)
         self._cleanup.callback(self._leave_window)
         chosen.listeners.append(self._on_settings)
@@ -97,30 +112,21 @@ class Chain:
 
     # Its state
 
-    def go(self, cue: Cue, hold: Hold | None = None, peek: str = "") -> None:
-        """Go on to the state after a cue, with what is held there.
-
-        Raises
-        ------
-        AssertionError
-            If `TRANSITIONS` does not allow it.
-        """
-        after = TRANSITIONS.get((self.stage, cue))
-        if after is None:
-            raise AssertionError(f"A chain cannot go on: {self.stage.name}, {cue.name}")
-        self.stage, self.hold, self.peek = after, hold, peek
+    def go(self, stage: str, hold: Hold | None = None, peek: str = "") -> None:
+        """Go on to another state, with what is held there. Raises AssertionError if `STAGES` does not allow it."""
+        if stage not in STAGES[self.stage]:
+            raise AssertionError(f"A chain cannot go on: {self.stage}, {stage}")
+        self.stage, self.hold, self.peek = stage, hold, peek
 
     def begin(self) -> None:
         """End as soon as nothing is live, because something is done from now on."""
-        if self.stage is Stage.READY:
-            self.go(Cue.BEGIN)
-        elif self.stage is Stage.PEEKING:
-            self.go(Cue.UNPEEK)
+        if self.stage in {"READY", "PEEKING"}:
+            self.go("DRAWING")
 
     def begin_anew(self) -> None:
         """Keep the drawn wires as a separate chain, if they are computed, and begin another one."""
-        if self.stage is Stage.ENDING:
-            self.go(Cue.BEGIN)
+        if self.stage == "ENDING":
+            self.go("DRAWING")
         if self._is_final:
             self.keep()
             self._switch_back()
@@ -141,16 +147,10 @@ class Chain:
 
     def let_go(self) -> None:
         """Cancel what a button holds."""
-        if self.stage is Stage.HOLDING:
-            hold = self.hold
-            self.go(Cue.LET_GO)
+        hold = self.hold
+        if hold is not None:
+            self.go("DRAWING")
             hold.cancel()
-
-    def cancel_drags(self) -> bool:
-        """Cancel what a button holds. Return whether there was something."""
-        is_held = self.stage is Stage.HOLDING
-        self.let_go()
-        return any([view.session.cancel() for view in edited.views()]) or is_held
 
     @property
     def _is_final(self) -> bool:
@@ -159,16 +159,17 @@ class Chain:
     def cancel(self) -> None:
         """Cancel what is dragged. If nothing is, end. While the end waits for wires, keep them as they are drawn."""
         self.begin()
-        if self.stage is Stage.ENDING:
-            for view in edited.views():
+        views = edited.views()
+        if self.stage == "ENDING":
+            for view in views:
                 view.session.finish(wait=False)
-        if not self.cancel_drags():
+        if not any([view.session.cancel() for view in views]):
             self.end()
 
     def end_now(self) -> None:
         """End before Blender has the event, because it may change the mesh. Blender stands still until the last wire is computed."""
         self.begin()
-        self.go(Cue.END)
+        self.go("OVER")
 
     def end(self) -> None:
         """End as soon as all wires are computed."""
@@ -176,19 +177,19 @@ class Chain:
         for view in edited.views():
             view.session.end_chain()
         if self._is_final:
-            self.go(Cue.END)
-        elif self.stage is not Stage.ENDING:
-            self.go(Cue.WAIT)
-            self.say("Ending when all wires are computed: Esc keeps them as they are drawn")
+            self.go("OVER")
+        elif self.stage != "ENDING":
+            self.go("ENDING")
+            self.hint = "Ending when all wires are computed: Esc keeps them as they are drawn"
 
     def settle(self) -> None:
         """End if nothing is live, and all wires are computed."""
-        if self.stage is Stage.ENDING:
+        if self.stage == "ENDING":
             self.end()
-        elif self.stage is Stage.DRAWING:
+        elif self.stage == "DRAWING":
             sketches = [view.session for view in edited.views()]
             if not any(one.network.seed is not None or one.is_held for one in sketches):
-                self.go(Cue.SETTLE if self._is_final else Cue.WAIT)
+                self.go("OVER" if self._is_final else "ENDING")
 
     # The objects
 
@@ -206,10 +207,6 @@ class Chain:
                 self.keep()
             self.drawn_on, self._before = view, view.session.drawn
             self._seams = view.mesh.arrays.seams
-
-    def note(self, title: str) -> None:
-        """Note what was done, by a title of a step of undo."""
-        self._titles.add(title)
 
     def keep(self) -> None:
         """Keep what was drawn as a separate step of undo, and go on."""
@@ -325,8 +322,8 @@ class Chain:
             reports.clear()
         view = self.drawn_on
         change = None if view is None else Change(self._before, view.session.drawn)
-        title = EDIT if self._titles == {EDIT} else DRAW
-        self._titles.clear()
+        title = EDIT if self.titles == {EDIT} else DRAW
+        self.titles.clear()
         if view is None or change is None or not (self._is_saved or change):
             self.drawn_on = None
             return
@@ -406,14 +403,15 @@ class Chain:
         if view is not None and view.mesh.alive():
             view.mesh.drop_changes(self._before)
             if self._is_saved:
-                _write(view, adopt=True)
+                view.mesh.write(view.mesh.plan(), adopt=True)
+                view.renew()
                 self._is_saved = False
         self.close()
 
     def close(self) -> None:
         """Put everything back. More than once does no harm."""
-        if self.stage is not Stage.CLOSED:
-            self.go(Cue.CLOSE)
+        if self.stage != "CLOSED":
+            self.go("CLOSED")
             self._cleanup.close()
 
     def _leave_window(self) -> None:
@@ -423,10 +421,6 @@ class Chain:
             self._set_timer(False)
 
     # Its window
-
-    def say(self, hint: str) -> None:
-        """Show the result of a key in the status bar."""
-        self.notices.hint = hint
 
     def follow_mouse(self, window: bpy.types.Window) -> bool:
         """Take note of the window that has an event. Return whether the chain can be drawn there: a drag stays in its window."""
@@ -455,16 +449,12 @@ class Chain:
             timer, self._timer = self._timer, None
             self.manager.event_timer_remove(timer)
 
-    def _wake(self) -> None:
-        """Let Blender send an event, because a mesh has changed. Nobody may move the mouse."""
-        self._set_timer(True)
-
     def hints(self) -> list[Hint]:
         """Return what the status bar shows."""
         symmetric = edited.front.mesh.symmetric
         offers = symmetric if symmetric and not edited.front.options.mirror else ()
         axes = "".join("XYZ"[axis] for axis in offers)
-        return hints(Status(self.session.picture, self.keys, self.notices.hint, axes))
+        return hints(Status(self.session.picture, self.keys, self.hint, axes))
 
     def show(self) -> None:
         """Show the sessions as they are now."""
@@ -478,7 +468,7 @@ class Chain:
             session.computing,
             session.waiting,
             edited.front.mesh.symmetric,
-            self.notices.hint,
+            self.hint,
         )
         before, self._shown = self._shown, (picture, words)
         if before is None or picture != before[0]:
@@ -504,11 +494,6 @@ def _leave_objects() -> None:
         turned = None if view.turned is None else view.turned_at(view.turned[1])
         view.session.hover(None if turned is None else Snap(turned.start, "WIRE", turned))  # the next key acts on it
     edited.show()
-
-
-def _write(view: ObjectView, adopt: bool) -> None:
-    view.mesh.write(view.mesh.plan(), adopt)
-    view.renew()
 
 
 def _apply(view: ObjectView, change: Change) -> str:

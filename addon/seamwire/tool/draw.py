@@ -16,7 +16,7 @@ from ..mesh.settings import ADDON, notices, preferences, settings, tool_is_activ
 from ..terms.choices import ALONG, items
 from ..words.keys import Action, Key
 from .keymaps import keys, takes
-from .running import LISTEN, NeedsEditMode, Stage, chains, listen, listening, steps
+from .running import LISTEN, NeedsEditMode, chains, listen, listening, steps
 
 if TYPE_CHECKING:
     from .chain import Chain
@@ -55,7 +55,7 @@ class _Follows:
         from .events import read
 
         chain = self._chain
-        if chain.stage is Stage.CLOSED:
+        if chain.stage == "CLOSED":
             return {"CANCELLED", "PASS_THROUGH"}
         try:
             trouble = chain.trouble(context)
@@ -64,7 +64,7 @@ class _Follows:
                 return self._finish(context) | {"PASS_THROUGH"}
             chain.find_front()
             passes = act(chain, read(chain, context, event))
-            if chain.stage is Stage.OVER:
+            if chain.stage == "OVER":
                 result = self._finish(context)
                 return result | {"PASS_THROUGH"} if passes else result
             return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
@@ -83,7 +83,7 @@ class _Follows:
     def _failed(self, context: bpy.types.Context, error: Exception) -> set[str]:
         """End the chain after an error. The wires up to there are kept."""
         traceback.print_exc()
-        if self._chain.stage is Stage.PEEKING:
+        if self._chain.stage == "PEEKING":
             self._chain.finish()
             return {"CANCELLED", "PASS_THROUGH"}
         self._chain.failure = error
@@ -162,7 +162,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
                 act_first(self._chain, given)
             else:
                 self._chain.show()
-            if self._chain.stage is Stage.OVER:
+            if self._chain.stage == "OVER":
                 place = given.place
                 views = [] if place is None else edited.views()
                 mirrored = any(view.is_on_mirrored_half(place.view, place.cursor) for view in views)
@@ -190,11 +190,11 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
         notices.tell(self.report)
         mesh.notices.tell(self.report)
         if mesh.obj.modifiers:
-            chain.say("Modifiers are ignored")
+            chain.hint = "Modifiers are ignored"
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists, without those that wait."""
-        if self._chain.stage is not Stage.CLOSED:
+        if self._chain.stage != "CLOSED":
             self._chain.finish(at_once=True)
 
 

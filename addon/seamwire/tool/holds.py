@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from ..view.viewport import Place
     from ..words.keys import Event
 
+    Held = Literal["SEED", "LINE", "GUIDE", "AVOID"]
+    """A seed or a wire, a line that wires follow, or a stroke that attracts or repels wires."""
+
 STEP = 3.0
 """Pixels between two looks at the surface under a stroke: a hand moves the mouse farther from one event to the next."""
 CLOSE_REACH = 10.0
@@ -29,21 +32,24 @@ CLOSE_LENGTH = 6.0
 
 
 class Hold:
-    """The thing that a pressed button drags on an object.
+    """What a pressed button drags on an object.
 
     The `modifiers` of the press are those that are still down. Once the mouse has moved beyond the threshold it `is_drag`. Until then it is
-    a click at `snap`, which a stroke does not have.
+    a click at `snap`, which a stroke does not have. `scale` is that of the display.
     """
 
-    def __init__(self, event: Event, view: ObjectView, place: Place, snap: Snap | None = None) -> None:
-        self.button = event.type
+    def __init__(
+        self, what: Held, event: Event, view: ObjectView, place: Place, snap: Snap | None = None, scale: float = 1.0
+    ) -> None:
+        self.what, self.button, self.place, self.snap = what, event.type, place, snap
         self.modifiers = list(MODIFIERS)
         self.follow_modifiers(event)
-        self._view = view
-        self._session = view.session
-        self.place = place
-        self.snap = snap
         self.is_drag = False
+        self._view, self._session, self._scale = view, view.session, scale
+        # Where the hand has gone over the surface: points in the session's coordinates, with their triangles.
+        self._points: list[NDArray[np.float64]] = []
+        self._triangles: list[int] = []
+        self._last, self._farthest, self._has_left = place, 0.0, False
 
     def follow_modifiers(self, event: Event) -> None:
         """Take note of the modifiers that are released."""
@@ -51,173 +57,93 @@ class Hold:
 
     def move(self, place: Place, threshold: float) -> bool:
         """Follow the mouse. A drag begins beyond the threshold, in pixels. Return whether it is still held."""
+        session = self._session
         if not self.is_drag:
             if place.away(self.place) <= threshold:
                 return True
-            if not self.begin():
+            if not self._begin():
                 return False
             self.is_drag = True
-        return self.drag(place)
+        if self.what == "SEED":
+            session.drag_to(self._view.snap(place.view, place.cursor))
+            return True
+        self.follow(place)
+        points = np.array(self._points).reshape(-1, 3)
+        if self.what == "LINE":
+            if not session.is_held:
+                return False  # a key has ended the line in the meantime
+            triangles = np.array(self._triangles, dtype=np.int32)
+            return session.line_to(points, triangles, self._view.snap(place.view, place.cursor))
+        self._farthest = max(self._farthest, math.dist(self.place.cursor, place.cursor))
+        self._view.stroke = points, self.what == "GUIDE"
+        return True
 
-    def cancel(self) -> None:
-        """Cancel without a change."""
-        raise NotImplementedError
-
-    def begin(self) -> bool:
+    def _begin(self) -> bool:
         """Begin a drag. Return whether that is possible."""
-        raise NotImplementedError
-
-    def drag(self, place: Place) -> bool:
-        """Follow the mouse. Return whether the drag goes on."""
-        raise NotImplementedError
-
-    def end(self) -> str:
-        """End the drag where it is. Return the title of the step of undo, or an empty text."""
-        raise NotImplementedError
-
-
-class SeedHold(Hold):
-    """A seed or a wire: a click begins or ends a chain there, a drag moves the seed, or one that it puts into the wire."""
-
-    def begin(self) -> bool:
-        """Take hold of the seed."""
-        return self._session.drag(self.snap)
-
-    def drag(self, place: Place) -> bool:
-        """Let the seed follow."""
-        self._session.drag_to(self._view.snap(place.view, place.cursor))
+        if self.what == "SEED":
+            return self._session.drag(self.snap)
+        if self.what == "LINE":
+            if not self._session.line_begin(self.snap):
+                return False
+        else:
+            self._session.hover(None)
+        self._add(self.place.view, self.place.cursor)
         return True
 
     def end(self) -> str:
-        """Leave the seed there."""
-        self._session.drag_end()
-        return EDIT
+        """Do what was meant: a click or a drag. Return the title of the step of undo, or an empty text."""
+        if not self.is_drag:
+            if self.snap is None:
+                return ""
+            self._session.click(self.snap)
+            return DRAW
+        if self.what == "SEED":
+            self._session.drag_end()
+            return EDIT
+        if self.what == "LINE":
+            self._session.line_end()
+            return DRAW
+        self._view.stroke = None
+        points, triangles, reach = self._points, self._triangles, CLOSE_REACH * self._scale
+        if len(points) < 2:
+            return ""
+        is_near = math.dist(self.place.cursor, self._last.cursor) <= reach
+        if is_near and not self._has_left and self._farthest > CLOSE_LENGTH * reach and len(points) > 2:
+            points, triangles = [*points, points[0]], [*triangles, triangles[0]]
+        self._session.draw_stroke(
+            np.array(points),
+            np.array(triangles),
+            attracts=self.what == "GUIDE",
+            radius=self._view.options.stroke_radius or None,  # 0: as many rings as the library takes
+        )
+        return DRAW
 
     def cancel(self) -> None:
-        """Let the seed go back."""
+        """Cancel without a change."""
+        self._view.stroke = None
         self._session.cancel()
 
-
-class Trail:
-    """Where a hand has gone over an object's surface while it held a button: points in the session's coordinates, with their triangles.
-
-    If it `ends_at_rim`, all is over once the hand has left the surface. Otherwise the hand may come back.
-    """
-
-    def __init__(self, view: ObjectView, place: Place, ends_at_rim: bool) -> None:
-        self._view = view
-        self._ends_at_rim = ends_at_rim
-        self.points: list[NDArray[np.float64]] = []
-        self.triangles: list[int] = []
-        self.left = False
-        self.last = place
-        self._add(place.view, place.cursor)
-
-    def to(self, place: Place) -> None:
-        """Follow the hand."""
+    def follow(self, place: Place) -> None:
+        """Take note of where the hand goes over the surface, once it is a drag."""
+        if not self.is_drag:
+            return
         # Where the view was changed in the meantime, what lies between is not where the hand went.
-        last = self.last
+        last = self._last
         same = place.region == last.region and np.array_equal(place.view.perspective, last.view.perspective)
         start, end = (last.cursor if same else place.cursor), place.cursor
         steps = max(1, math.ceil(math.dist(start, end) / STEP))
         for step in range(1, steps + 1):
             part = step / steps
             self._add(place.view, (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
-        self.last = place
+        self._last = place
 
     def _add(self, camera: Camera, cursor: tuple[float, float]) -> None:
-        found = None if self.left else self._view.surface_at(camera, cursor)
+        found = None if self._has_left else self._view.surface_at(camera, cursor)
         if found is None:
-            # Over the rim it ends. If it began beside the model, it has not begun.
-            self.left = self._ends_at_rim and bool(self.points)
+            # A stroke ends at the rim. If it began beside the model, it has not begun. A line may come back.
+            self._has_left = self.what != "LINE" and bool(self._points)
             return
         point, triangle = found
-        if not self.points or not np.array_equal(point, self.points[-1]):
-            self.points.append(point)
-            self.triangles.append(triangle)
-
-
-class LineHold(Hold):
-    """The surface: a click adds a seed, or keeps the live wire; a drag draws a line that wires follow."""
-
-    _trail: Trail | None = None
-
-    def begin(self) -> bool:
-        """Begin a line."""
-        if not self._session.line_begin(self.snap):
-            return False
-        self._trail = Trail(self._view, self.place, ends_at_rim=False)
-        return True
-
-    def follow(self, place: Place) -> None:
-        """Take note of where the mouse was between two moves."""
-        if self._trail is not None:
-            self._trail.to(place)
-
-    def drag(self, place: Place) -> bool:
-        """Draw on to where the mouse is now."""
-        trail = self._trail
-        assert trail is not None
-        trail.to(place)
-        if not self._session.is_held:
-            return False  # a key has ended the line in the meantime
-        points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
-        return self._session.line_to(points, triangles, self._view.snap(place.view, place.cursor))
-
-    def end(self) -> str:
-        """Keep the wires that follow the line."""
-        self._session.line_end()
-        return DRAW
-
-    def cancel(self) -> None:
-        """Forget the line."""
-        self._session.cancel()
-
-
-class StrokeHold(Hold):
-    """A stroke that is drawn while a button is held."""
-
-    attracts = True
-    """Whether wires are to follow the stroke, rather than keep off it."""
-    scale = 1.0
-    """The scale of the display."""
-    _trail: Trail | None = None
-    _farthest = 0.0
-
-    def begin(self) -> bool:
-        """Begin a stroke."""
-        self._session.hover(None)
-        self._trail = Trail(self._view, self.place, ends_at_rim=True)
-        return True
-
-    def drag(self, place: Place) -> bool:
-        """Draw on to where the mouse is now."""
-        trail = self._trail
-        assert trail is not None
-        trail.to(place)
-        self._farthest = max(self._farthest, math.dist(self.place.cursor, place.cursor))
-        self._view.stroke = (np.array(trail.points).reshape(-1, 3), self.attracts)
-        return True
-
-    def end(self) -> str:
-        """Let the wires follow the stroke, or keep off."""
-        self._view.stroke = None
-        trail, reach = self._trail, CLOSE_REACH * self.scale
-        assert trail is not None
-        points, triangles = trail.points, trail.triangles
-        if len(points) < 2:
-            return ""
-        near = math.dist(self.place.cursor, trail.last.cursor) <= reach
-        if near and not trail.left and self._farthest > CLOSE_LENGTH * reach and len(points) > 2:
-            points, triangles = [*points, points[0]], [*triangles, triangles[0]]
-        self._session.draw_stroke(
-            np.array(points),
-            np.array(triangles),
-            attracts=self.attracts,
-            radius=self._view.options.stroke_radius or None,  # 0: as many rings as the library takes
-        )
-        return DRAW
-
-    def cancel(self) -> None:
-        """Forget it."""
-        self._view.stroke = None
+        if not self._points or not np.array_equal(point, self._points[-1]):
+            self._points.append(point)
+            self._triangles.append(triangle)

@@ -7,8 +7,7 @@ It needs no NumPy, so that Blender's start does not wait for it.
 from __future__ import annotations
 
 import traceback
-from enum import Enum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -23,50 +22,6 @@ chains: list[Any] = []
 """The chain that is being drawn."""
 steps: list[Any] = []
 """The operators that take steps beside the interface at the moment."""
-
-
-class Stage(Enum):
-    """A state of a chain."""
-
-    READY = "waits for its first click"
-    PEEKING = "shows the loop under the mouse, while a key is held"
-    DRAWING = "is drawn, and no button is held"
-    HOLDING = "is drawn, and a button is held"
-    ENDING = "ends as soon as all wires are computed"
-    OVER = "has nothing live any more"
-    CLOSED = "is in the mesh, or dropped"
-
-
-class Cue(Enum):
-    """A reason why a chain changes its state."""
-
-    BEGIN = "something is done under the mouse"
-    PEEK = "a key is pressed that shows the loop under the mouse"
-    UNPEEK = "the key is released, another key is pressed, or the window loses the focus"
-    PRESS = "a button is pressed that drags something"
-    RELEASE = "the button is released"
-    LET_GO = "Undo, Esc, a right click or a refusal cancels what is held"
-    WAIT = "the end is asked for, and a wire is still computed"
-    END = "the end is asked for, or the last wire is computed"
-    SETTLE = "nothing is live any more"
-    CLOSE = "the operator ends, or the wires cannot be written"
-
-
-TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
-    (Stage.READY, Cue.BEGIN): Stage.DRAWING,
-    (Stage.READY, Cue.PEEK): Stage.PEEKING,
-    (Stage.PEEKING, Cue.UNPEEK): Stage.DRAWING,
-    (Stage.DRAWING, Cue.PRESS): Stage.HOLDING,
-    (Stage.DRAWING, Cue.WAIT): Stage.ENDING,
-    (Stage.DRAWING, Cue.END): Stage.OVER,
-    (Stage.DRAWING, Cue.SETTLE): Stage.OVER,
-    (Stage.HOLDING, Cue.RELEASE): Stage.DRAWING,
-    (Stage.HOLDING, Cue.LET_GO): Stage.DRAWING,
-    (Stage.ENDING, Cue.BEGIN): Stage.DRAWING,
-    (Stage.ENDING, Cue.END): Stage.OVER,
-    **{(stage, Cue.CLOSE): Stage.CLOSED for stage in Stage if stage not in {Stage.HOLDING, Stage.CLOSED}},
-}
-"""Every allowed change of the state. `docs/development/structure.md` has the same table with what happens."""
 
 
 class NeedsEditMode:
@@ -140,26 +95,15 @@ EDIT = "Edit Seamwires"
 """The step of a chain that moved, swapped, bent or removed wires or strokes."""
 
 
-class _UndoStep:
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "INTERNAL"}
-
-    def invoke(self, _context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Let Blender push the step."""
-        return {"FINISHED"}
-
-
-class MESH_OT_seamwire_step_draw(_UndoStep, bpy.types.Operator):
-    """Push a step of undo for a chain"""  # noqa: D400 - a tooltip
-
-    bl_idname = "mesh.seamwire_step_draw"
-    bl_label = DRAW
-
-
-class MESH_OT_seamwire_step_edit(_UndoStep, bpy.types.Operator):
-    """Push a step of undo for a chain"""  # noqa: D400 - a tooltip
-
-    bl_idname = "mesh.seamwire_step_edit"
-    bl_label = EDIT
+def _undo_step(name: str, title: str) -> type[bpy.types.Operator]:
+    body = {
+        "__doc__": "Push a step of undo for a chain",
+        "bl_idname": f"mesh.seamwire_step_{name}",
+        "bl_label": title,
+        "bl_options": {"REGISTER", "UNDO", "INTERNAL"},
+        "invoke": lambda _step, _context, _event: {"FINISHED"},
+    }
+    return type(f"MESH_OT_seamwire_step_{name}", (bpy.types.Operator,), body)
 
 
 def push(title: str) -> None:
@@ -169,5 +113,5 @@ def push(title: str) -> None:
 
 
 register, unregister = together(
-    (lambda: None, stop_listening), *classes(MESH_OT_seamwire_step_draw, MESH_OT_seamwire_step_edit)
+    (lambda: None, stop_listening), *classes(_undo_step("draw", DRAW), _undo_step("edit", EDIT))
 )

@@ -26,10 +26,9 @@ class Notice(NamedTuple):
 
 
 class Notices:
-    """What waits to be reported, and what the status bar shows."""
+    """What waits to be reported."""
 
     def __init__(self) -> None:
-        self.hint = ""  # the result of the last key, for the status bar
         self._waiting: list[Notice] = []
 
     def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
