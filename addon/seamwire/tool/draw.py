@@ -46,51 +46,49 @@ _CHAIN_ELSEWHERE = "A chain is being drawn in another window: end it there first
 _STEPS_ELSEWHERE = "{} is running: wait for it, or press Esc in its window"
 
 
-class _Follows:
-    """A `modal` method that passes events to `_chain`, and ends with it."""
+def _follow(operator: bpy.types.Operator, chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+    """Pass an event to a chain, and end with it. Return what a modal operator returns."""
+    from .acts import act
+    from .events import read
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Pass an event to the chain, and finish when the chain has ended."""
-        from .acts import act
-        from .events import read
-
-        chain = self._chain
-        if chain.stage == "CLOSED":
-            return {"CANCELLED", "PASS_THROUGH"}
-        try:
-            trouble = chain.trouble(context)
-            if trouble:
-                chain.notices.add("WARNING", f"{trouble}: the chain has ended")
-                return self._finish(context) | {"PASS_THROUGH"}
-            chain.find_front()
-            passes = act(chain, read(chain, context, event))
-            if chain.stage == "OVER":
-                result = self._finish(context)
-                return result | {"PASS_THROUGH"} if passes else result
+    if chain.stage == "CLOSED":
+        return {"CANCELLED", "PASS_THROUGH"}
+    try:
+        trouble = chain.trouble(context)
+        if trouble:
+            chain.notices.add("WARNING", f"{trouble}: the chain has ended")
+            return _finish(operator, chain, context) | {"PASS_THROUGH"}
+        chain.find_front()
+        passes = act(chain, read(chain, context, event))
+        if chain.stage != "OVER":
             return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
-        except Exception as error:
-            return self._failed(context, error)
-
-    def _finish(self, context: bpy.types.Context) -> set[str]:
-        has_kept = self._chain.finish()
-        self._chain.notices.tell(self.report)
-        if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
-            preferences(context).text = "INFORMATION"
-            # Blender does not list an add-on that is enabled for one run, and must store nothing of it.
-            context.preferences.is_dirty |= ADDON in context.preferences.addons
-        return {"FINISHED"} if has_kept else {"CANCELLED"}
-
-    def _failed(self, context: bpy.types.Context, error: Exception) -> set[str]:
-        """End the chain after an error. The wires up to there are kept."""
-        traceback.print_exc()
-        if self._chain.stage == "PEEKING":
-            self._chain.finish()
-            return {"CANCELLED", "PASS_THROUGH"}
-        self._chain.failure = error
-        return self._finish(context)
+        result = _finish(operator, chain, context)
+        return result | {"PASS_THROUGH"} if passes else result
+    except Exception as error:
+        return _fail(operator, chain, context, error)
 
 
-class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
+def _finish(operator: bpy.types.Operator, chain: Chain, context: bpy.types.Context) -> set[str]:
+    has_kept = chain.finish()
+    chain.notices.tell(operator.report)
+    if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
+        preferences(context).text = "INFORMATION"
+        # Blender does not list an add-on that is enabled for one run, and must store nothing of it.
+        context.preferences.is_dirty |= ADDON in context.preferences.addons
+    return {"FINISHED"} if has_kept else {"CANCELLED"}
+
+
+def _fail(operator: bpy.types.Operator, chain: Chain, context: bpy.types.Context, error: Exception) -> set[str]:
+    """End a chain after an error. The wires up to there are kept."""
+    traceback.print_exc()
+    if chain.peek:
+        chain.finish()
+        return {"CANCELLED", "PASS_THROUGH"}
+    chain.failure = error
+    return _finish(operator, chain, context)
+
+
+class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
     """Draw seams with live wires that follow the shape of the mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_draw"
@@ -110,7 +108,6 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode and no chain is being drawn in the window."""
         if not super().poll(context):
             return False
         if any(chain.window == context.window for chain in chains):
@@ -119,7 +116,6 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
         return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin a gesture."""
         from ..mesh.edit_mesh import NothingVisibleError
         from ..view.edited_objects import edited
         from ..view.viewport import place_of
@@ -157,7 +153,11 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
         # Blender frees an operator whose invoke raised an exception, but would still call its modal method.
         try:
             if self.first != "PEEK":
-                self._tell_problems(self._chain)
+                mesh = edited.front.mesh
+                notices.tell(self.report)
+                mesh.notices.tell(self.report)
+                if mesh.obj.modifiers:
+                    self._chain.hint = "Modifiers are ignored"
             if self.first != "NONE":
                 act_first(self._chain, given)
             else:
@@ -166,31 +166,20 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
                 place = given.place
                 views = [] if place is None else edited.views()
                 mirrored = any(view.is_on_mirrored_half(place.view, place.cursor) for view in views)
-                result = self._finish(context)
+                result = _finish(self, self._chain, context)
                 if mirrored and result == {"CANCELLED"}:
                     tell_mirrored(self)
                 return result
         except Exception as error:
-            return self._failed(context, error)
+            return _fail(self, self._chain, context, error)
         listen(context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Pass an event to the chain, and finish when the chain has ended. Other windows may be new."""
         if chains:
-            listen(chains[0].window)
-        return super().modal(context, event)
-
-    def _tell_problems(self, chain: Chain) -> None:
-        """Report problems with the settings and with the wires that are stored with the mesh, once."""
-        from ..view.edited_objects import edited
-
-        mesh = edited.front.mesh
-        notices.tell(self.report)
-        mesh.notices.tell(self.report)
-        if mesh.obj.modifiers:
-            chain.hint = "Modifiers are ignored"
+            listen(chains[0].window)  # other windows may be new
+        return _follow(self, self._chain, context, event)
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists, without those that wait."""
@@ -198,7 +187,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
             self._chain.finish(at_once=True)
 
 
-class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
+class MESH_OT_seamwire_listen(bpy.types.Operator):
     """Listen in a window beside that of what runs. A chain can be drawn in all windows"""  # noqa: D400 - a tooltip
 
     bl_idname = LISTEN
@@ -213,22 +202,16 @@ class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Pass an event to what runs in another window. End when nothing runs."""
         result = {"PASS_THROUGH"}
         if not (chains or steps):
             result = {"CANCELLED", "PASS_THROUGH"}
         elif not event.type.startswith("TIMER") and context.window != (chains or steps)[0].window:
-            if chains:
-                self._chain = chains[0]
-                result = super().modal(context, event)
-            else:
-                result = steps[0].overhear(context, event)
+            result = _follow(self, chains[0], context, event) if chains else steps[0].overhear(context, event)
         if "CANCELLED" in result or "FINISHED" in result:
             self.cancel(context)
         return result
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Listen no longer."""
         timer = listening.pop(self._window, None)
         if timer is not None:
             context.window_manager.event_timer_remove(timer)
@@ -239,7 +222,6 @@ class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
 
 GROUP = "SEAMWIRE_GGT_hover"
 HOVER = "mesh.seamwire_hover"
-_NOWHERE = -1
 
 
 def _hover(context: bpy.types.Context, location: tuple[int, int]) -> None:
@@ -260,13 +242,11 @@ class MESH_OT_seamwire_hover(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the mouse is over such a view and the tool is active."""
         space = context.space_data
         hidden = space is not None and space.type == "VIEW_3D" and not (space.show_gizmo and space.show_gizmo_tool)
         return hidden and tool_is_active(context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Receive the motion of the mouse."""
         _hover(context, (event.mouse_region_x, event.mouse_region_y))
         return {"PASS_THROUGH"}
 
@@ -280,10 +260,9 @@ class SEAMWIRE_GT_hover(bpy.types.Gizmo):
         """Draw nothing, because the overlay draws the highlight."""
 
     def test_select(self, context: bpy.types.Context, location: tuple[int, int]) -> int:
-        """Receive the position of the mouse, and return that no gizmo is there."""
         if context.area is not None and context.area.type == "VIEW_3D":
             _hover(context, location)
-        return _NOWHERE
+        return -1  # no gizmo is there
 
 
 class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
@@ -297,11 +276,9 @@ class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the tool is active in Edit Mode."""
         return tool_is_active(context)
 
     def setup(self, _context: bpy.types.Context) -> None:
-        """Create the gizmo."""
         self.gizmos.new(SEAMWIRE_GT_hover.bl_idname)
 
 
