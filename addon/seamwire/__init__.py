@@ -35,7 +35,6 @@ _PARTS = (
     "tool.draw",
     "view.handlers",
     "ui.toolbar",
-    "ui.status_bar",
     "ui.menus",
     "ui.companions",
 )

@@ -14,7 +14,6 @@ from ..mesh.settings import settings
 from ..terms.choices import STRETCHES, items
 from ..words.reports import count, in_words, square_used
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
-from .steps import AfterChain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,19 +54,16 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
     description = description_of_item("which")
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that count."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "which")
-        if self.which == "WORST":
-            layout.prop(self, "kind")
+        self.layout.use_property_split = True
+        for name in ("which", "kind") if self.which == "WORST" else ("which",):
+            self.layout.prop(self, name)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Select them. The stretch is the operator's own if it was given, otherwise the one that the tool shows."""
         if self.which == "TO_CUT":
             return self._select_islands_to_cut(context)
-        is_given = self.properties.is_property_set("kind")
-        self.kind = "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
+        if not self.properties.is_property_set("kind") and settings(context).heat == "AREA":
+            self.kind = "AREA"
         return self._select_worst_island(context)
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
@@ -81,10 +77,8 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         for obj, (faces, _) in found.items():
             edit_mesh.select_faces(obj, faces)
         missing = [int(cuts) for _, cuts_of in found.values() for cuts in cuts_of]
-        if missing:
-            self.report({"INFO"}, f"{count(len(missing), 'island')} to cut: {count(sum(missing), 'more cut')} needed")
-        else:
-            self.report({"INFO"}, "No island needs another cut")
+        told = f"{count(len(missing), 'island')} to cut: {count(sum(missing), 'more cut')} needed"
+        self.report({"INFO"}, told if missing else "No island needs another cut")
         return {"FINISHED"}
 
     def _select_worst_island(self, context: bpy.types.Context) -> set[str]:
@@ -135,7 +129,6 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
     description = description_of_item("what")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Store the islands of all objects in Edit Mode."""
         from ..mesh.seam_islands import store
 
         with changing():
@@ -146,11 +139,12 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
+class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
     """Unwrap the islands whose seams have changed. All other UVs stay in place"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_unwrap"
     bl_label = "Unwrap Changed Islands"
+    ends_chain = True
 
     method: bpy.props.EnumProperty(
         name="Method",
@@ -186,18 +180,12 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that have an effect."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "method")
-        if self.method == "SEAMWIRE":
-            layout.prop(self, "straight")
-            layout.prop(self, "upright")
-            layout.prop(self, "stack")
-        layout.prop(self, "changed_only")
+        self.layout.use_property_split = True
+        own = ("straight", "upright", "stack") if self.method == "SEAMWIRE" else ()
+        for name in ("method", *own, "changed_only"):
+            self.layout.prop(self, name)
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Unwrap, and report the number of islands."""
         from ..core.islands.square_use import square_use
         from ..mesh.seam_islands import in_scene, maps_of
         from ..mesh.unwrap import Layout, unwrap_changed

@@ -13,7 +13,7 @@ from ..words.reports import count, not_cut
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -43,7 +43,7 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
                 bm = mesh.cage.number_bmesh()
                 seams = seams[[bm.edges.get([bm.verts[v] for v in pair]).select for pair in seams.tolist()]]
             if len(seams):
-                found[mesh] = self._wires(context, mesh, seams)
+                found[mesh] = list(_wires_along(context, mesh, seams))
         if not found:
             self.report({"ERROR"}, f"No {'selected seams' if self.selected else 'seams'} to convert")
             return {"CANCELLED"}
@@ -53,25 +53,22 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
         wires = [wire for own in found.values() for wire in own]
         seeds = {(mesh, end) for mesh, own in found.items() for wire in own for end in (wire.start, wire.end)}
         edges = sum(len(wire.edges()) for wire in wires)
-        self.report(
-            {"INFO"},
-            f"{count(edges, 'seam edge')} converted: {count(len(wires), 'wire')}, {count(len(seeds), 'seed')}",
-        )
+        made = f"{count(len(wires), 'wire')}, {count(len(seeds), 'seed')}"
+        self.report({"INFO"}, f"{count(edges, 'seam edge')} converted: {made}")
         return {"FINISHED"}
 
-    @staticmethod
-    def _wires(context: bpy.types.Context, mesh: ObjectSession, seams: NDArray[np.int32]) -> list[Wire]:
-        progress = context.window_manager
-        progress.progress_begin(0, len(seams))
-        wires, done = [], 0
-        try:
-            for wire in mesh.session.wires_along(seams):
-                wires.append(wire)
-                done += len(wire.edges())
-                progress.progress_update(done)
-        finally:
-            progress.progress_end()
-        return wires
+
+def _wires_along(context: bpy.types.Context, mesh: ObjectSession, seams: NDArray[np.int32]) -> Iterator[Wire]:
+    """Yield the wires of seams. The mouse pointer shows the progress."""
+    progress, done = context.window_manager, 0
+    progress.progress_begin(0, len(seams))
+    try:
+        for wire in mesh.session.wires_along(seams):
+            done += len(wire.edges())
+            progress.progress_update(done)
+            yield wire
+    finally:
+        progress.progress_end()
 
 
 class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
@@ -90,10 +87,16 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Draw wires over the gaps of all objects before writing to any, so that an error leaves all of them unchanged."""
+        from ..core.seams.gaps import GapFinder
+
         meshes = self.open_meshes(context)
         if not meshes:
             return {"CANCELLED"}
-        found = self._find(meshes)
+        gaps_of = {
+            mesh: GapFinder(mesh.make_live.wait, mesh.arrays.partly_hidden).find(mesh.arrays.seams, self.longest)
+            for mesh in meshes
+        }
+        found = {mesh: gaps for mesh, gaps in gaps_of.items() if gaps}
         if not found:
             self.report({"INFO"}, "No gaps: no seam ends just before another seam or the boundary")
             return {"CANCELLED"}
@@ -104,16 +107,6 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         marked = self.write(context, found)
         self.report({"INFO"}, f"{count(closed, 'gap')} closed, {count(marked, 'edge')} marked")
         return {"FINISHED"}
-
-    def _find(self, meshes: Iterable[ObjectSession]) -> dict[ObjectSession, list[Gap]]:
-        from ..core.seams.gaps import GapFinder
-
-        found = {}
-        for mesh in meshes:
-            gaps = GapFinder(mesh.make_live.wait, mesh.arrays.partly_hidden).find(mesh.arrays.seams, self.longest)
-            if gaps:
-                found[mesh] = gaps
-        return found
 
     def _close(self, mesh: ObjectSession, gaps: list[Gap]) -> int:
         """Draw a wire and its mirror images over each gap that is still open, and return the number of wires."""
@@ -148,7 +141,6 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
     description = description_of_item("finish")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Finish the wires of all objects in Edit Mode."""
         from ..mesh import finishes
 
         meshes = self.open_meshes(context)

@@ -103,17 +103,14 @@ class LiveParts:
 
     @property
     def choice(self) -> PartChoice:
-        """The choice that is shown."""
         return self._choices[self._at]
 
     @property
     def is_done(self) -> bool:
-        """Whether the parts are confirmed, and seams planned in them."""
         return self.is_kept and self.is_planned and not self._searches
 
     @property
     def is_planned(self) -> bool:
-        """Whether seams are planned in the parts that are shown."""
         return self._planned == self._version
 
     @property
@@ -130,7 +127,6 @@ class LiveParts:
 
     @property
     def hints(self) -> Sequence[str]:
-        """For the status bar: the artist's choices."""
         return () if self.is_kept else LIVE_HINTS
 
     def plan(self, progress: Progress) -> None:
@@ -176,7 +172,6 @@ class LiveParts:
         return "" if found is None else f"stretch {found.stretch:.0f} %, seams {found.length}"
 
     def _tell(self) -> None:
-        """Show the choice, and the map that it makes, in the corner of the views."""
         search = self._search
         rows = rows_of_parts(
             self.choice, search.part_count, self._past, self._found_map, self.is_planned, search.automatic
@@ -342,14 +337,12 @@ class LiveParts:
             self._change_to(found, at)
 
     def find(self, progress: Progress) -> None:
-        """Find the parts that the artist has asked for first."""
         asked = self._searches[0]
         with suppress(self._cancelled):
             # Undo may take the search back.
             self._found = asked, asked[0](lambda done: progress(done) and asked in self._searches)
 
     def _change_to(self, choice: PartChoice, at: int | None) -> None:
-        """Go on to a choice that has a place among those that were made, or to a new one."""
         before = self.choice
         if choice == before:
             return
@@ -366,7 +359,6 @@ class LiveParts:
         self._change()
 
     def _edited(self, suggestion: Suggestion, at: Pointed) -> PartEdits:
-        """Return the edits of a mesh after a click."""
         edits = self.choice.edits.get(suggestion.name, PartEdits())
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
@@ -379,7 +371,6 @@ class LiveParts:
         return edits.keep(edges_of(self._dim(suggestion)[at.border - len(suggestion.borders)]))
 
     def _change(self) -> None:
-        """Choose the parts anew, and show them."""
         self._version += 1
         self._rests_at = time.monotonic() + _REST
         self._found_map = None
@@ -418,7 +409,6 @@ class LiveParts:
 
 
 def _scale_of(obj: bpy.types.Object) -> float:
-    """Return the mean scale of an object in the scene."""
     return abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
 
 

@@ -120,20 +120,22 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that have an effect."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "parts", slider=True)
-        layout.prop(self, "parts_by")
-        layout.prop(self, "distortion", slider=True)
-        layout.prop(self, "islands")
-        layout.prop(self, "front")
-        layout.prop(self, "along")
-        if self.along != "EDGES":
-            layout.prop(self, "finish")
-        layout.prop(self, "symmetric")
-        layout.prop(self, "selected")
-        layout.prop(self, "unwrap")
+        self.layout.use_property_split = True
+        shown = (
+            "parts",
+            "parts_by",
+            "distortion",
+            "islands",
+            "front",
+            "along",
+            "finish",
+            "symmetric",
+            "selected",
+            "unwrap",
+        )
+        for name in shown:
+            if name != "finish" or self.along != "EDGES":
+                self.layout.prop(self, name, slider=name in {"parts", "distortion"})
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Note the direction of the 3D view, and let the artist choose the parts while the interface stays responsive."""
@@ -142,7 +144,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         return super().invoke(context, event)
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Yield the steps of the search, then mark or cut."""
         search = self._read(context)
         search.notices.tell(self.report)
         if not search:
@@ -207,9 +208,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report. It unwraps even if no seam is needed."""
         if not search.has_wires:
-            unwrapped = self._unwrap(context, search) if self.unwrap else 0
-            self._report_outcome(search)
-            return {"FINISHED"} if unwrapped else {"CANCELLED"}
+            return {"FINISHED"} if self._end(context, search, self.unwrap) else {"CANCELLED"}
         if search.to_cut:
             first = partial(search.write, before_cuts=True)
             done = cut_wires(self, context, search.to_cut, crumb=search.crumb, live_unwrap=False, first=first)
@@ -217,23 +216,21 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
                 return done
         with changing():
             search.write(before_cuts=False)
-            self._unwrap(context, search)
-            self._report_outcome(search)
+            self._end(context, search)
         return {"FINISHED"}
 
-    def _report_outcome(self, search: SeamSearch) -> None:
-        outcome = search.outcome()
-        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
-
-    def _unwrap(self, context: bpy.types.Context, search: SeamSearch) -> int:
-        """Unwrap, and report what cannot be unwrapped. Return the number of unwrapped islands."""
+    def _end(self, context: bpy.types.Context, search: SeamSearch, unwraps: bool = True) -> int:
+        """Unwrap, and report the outcome. Return the number of unwrapped islands."""
         from ..core.base.native import NativeError
 
+        unwrapped = 0
         try:
-            return search.unwrap(context)
+            unwrapped = search.unwrap(context) if unwraps else 0
         except (ValueError, NativeError) as error:
             self.report({"WARNING"}, str(error))
-            return 0
+        outcome = search.outcome()
+        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
+        return unwrapped
 
 
 def _identity(search: SeamSearch) -> tuple[tuple[str, int, int], ...]:

@@ -54,19 +54,16 @@ def hover(chain: Chain, given: Meant) -> None:
 
 
 def rehover(chain: Chain, place: Place) -> None:
-    """Show what a click, or a key after *W*, would take now."""
     view, snap = edited.find_or_turned(place)
     chain.session.hover(snap if view is edited.front else None)
 
 
 def drag(chain: Chain, given: Meant) -> None:
-    """Let the held thing follow the mouse."""
     if not chain.hold.move(given.place, drag_threshold(given.event, bpy.context.preferences)):
         chain.go("DRAWING")
 
 
 def release(chain: Chain, given: Meant) -> None:
-    """Do what was meant by a press and a release: a click, or a drag."""
     hold = chain.hold
     chain.go("DRAWING")
     title = hold.end()
@@ -127,7 +124,6 @@ def _is_loop(chain: Chain, session: Sketch, snap: Snap, event: bpy.types.Event) 
 
 
 def begin_stroke(chain: Chain, given: Meant) -> None:
-    """Begin a stroke under the mouse."""
     chain.begin()
     if chain.stage == "ENDING":
         chain.begin_anew()
@@ -224,7 +220,6 @@ def swap(chain: Chain, given: Meant) -> None:
 
 
 def change_strength(chain: Chain, given: Meant) -> None:
-    """Let wires follow the shape more or less."""
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
     name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
@@ -304,7 +299,6 @@ def undo(chain: Chain, _given: Meant) -> None:
 
 
 def _refuse(chain: Chain, _given: Meant) -> None:
-    """Do nothing, because the held button comes first."""
     chain.hint = "Release the button first"
 
 

@@ -11,15 +11,17 @@ from typing import TYPE_CHECKING, TypeVar
 import bpy
 import numpy as np
 
+from ..core.base.native import NativeError
 from ..core.network.drawn import Drawn, edges_after
 from ..core.network.network import Snap
 from ..core.network.picks import FacePoint
 from ..core.sketch.change import Change
-from ..mesh import finishes
+from ..mesh import edit_mesh, finishes
 from ..mesh import settings as chosen
+from ..mesh.unwrap import unwrap_changed
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
-from ..words.hints import Status, hints
+from ..words.hints import hints
 from ..words.keys import DoubleClicks
 from ..words.reports import Notices, count, in_words, summary
 from . import keymaps, running
@@ -87,26 +89,21 @@ class Chain:
         self._seams = np.empty((0, 2), dtype=np.int32)  # its seams then
         self.titles: set[str] = set()
         self._is_saved = False
-        self.stage = "READY"
-        self.hold: Hold | None = None
-        self.peek = ""
+        self.stage, self.hold, self.peek = "READY", None, ""
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
         self._cleanup = ExitStack()
         self._switched: dict[str, tuple[object, object]] = {}  # settings before a key changed them, and since then
-        self._cleanup.callback(self._switch_back)
         edited.chain = partial(self._set_timer, True)  # nobody may move the mouse when a mesh changes
-        self._cleanup.callback(_leave_objects)
-        self._cleanup.callback(self._leave_window)
-        chosen.listeners.append(self._on_settings)
-        self._cleanup.callback(chosen.listeners.remove, self._on_settings)
-        chains.append(self)
-        self._cleanup.callback(chains.remove, self)
+        for leave in (self._switch_back, _leave_objects, self._leave_window):
+            self._cleanup.callback(leave)
+        for listed, own in ((chosen.listeners, self._on_settings), (chains, self)):
+            listed.append(own)
+            self._cleanup.callback(listed.remove, own)
 
     @property
     def session(self) -> Sketch:
-        """The session of the object that was pointed at last."""
         assert edited.front is not None
         return edited.front.session
 
@@ -132,7 +129,6 @@ class Chain:
             self._switch_back()
 
     def switch(self, name: str, value: object) -> None:
-        """Change a setting until the chain ends."""
         before, _ = self._switched.get(name, (getattr(chosen.settings(), name), None))
         self._switched[name] = before, value
         setattr(chosen.settings(), name, value)
@@ -146,7 +142,6 @@ class Chain:
                 setattr(settings, name, before)
 
     def let_go(self) -> None:
-        """Cancel what a button holds."""
         hold = self.hold
         if hold is not None:
             self.go("DRAWING")
@@ -209,7 +204,7 @@ class Chain:
             self._seams = view.mesh.arrays.seams
 
     def keep(self) -> None:
-        """Keep what was drawn as a separate step of undo, and go on."""
+        """Keep what was drawn as a separate step of undo, and go on with the next."""
         with self._at_home():
             self._keep_wires()
         if self.failure is not None:
@@ -409,7 +404,6 @@ class Chain:
         self.close()
 
     def close(self) -> None:
-        """Put everything back. More than once does no harm."""
         if self.stage != "CLOSED":
             self.go("CLOSED")
             self._cleanup.close()
@@ -442,7 +436,6 @@ class Chain:
             self._mouse_window.cursor_modal_restore()
 
     def _set_timer(self, wanted: bool) -> None:
-        """Let Blender send an event at each tick, or no longer."""
         if wanted and self._timer is None:
             self._timer = self.manager.event_timer_add(TICK, window=self.window)
         elif not wanted and self._timer is not None:
@@ -450,14 +443,12 @@ class Chain:
             self.manager.event_timer_remove(timer)
 
     def hints(self) -> list[Hint]:
-        """Return what the status bar shows."""
         symmetric = edited.front.mesh.symmetric
         offers = symmetric if symmetric and not edited.front.options.mirror else ()
         axes = "".join("XYZ"[axis] for axis in offers)
-        return hints(Status(self.session.picture, self.keys, self.hint, axes))
+        return hints(self.session.picture, self.keys, self.hint, axes)
 
     def show(self) -> None:
-        """Show the sessions as they are now."""
         session = self.session
         picture = (
             id(edited.front),
@@ -497,7 +488,6 @@ def _leave_objects() -> None:
 
 
 def _apply(view: ObjectView, change: Change) -> str:
-    """Let the mesh do what a change asks, and return what was done, in words."""
     if not view.mesh.alive():
         left = sum(map(change.finishes, change.after.wires))
         return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
@@ -510,13 +500,8 @@ def _apply(view: ObjectView, change: Change) -> str:
 def unwrap_after_chain(context: bpy.types.Context) -> str:
     """Unwrap after a change of seams, as the tool or Blender is set. Return what went wrong, or an empty text."""
     if not chosen.settings(context).unwrap:
-        from ..mesh import edit_mesh
-
         edit_mesh.live_unwrap(context)
         return ""
-    from ..core.base.native import NativeError
-    from ..mesh.unwrap import unwrap_changed
-
     try:
         return ", ".join(in_words(unwrap_changed(context).faults))
     except (ValueError, NativeError) as error:

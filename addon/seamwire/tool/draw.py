@@ -289,7 +289,6 @@ def tell_mirrored(operator: bpy.types.Operator) -> None:
 
 @persistent
 def _on_save(*_: object) -> None:
-    """Let files hold what is drawn so far."""
     for chain in chains:
         chain.attempt(chain.save)
 

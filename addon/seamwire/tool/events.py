@@ -91,7 +91,6 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Me
 
 
 def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, double: bool) -> Action | Sign:
-    """Return what a key, a button or the wheel means."""
     is_wheel = event.type in WHEEL and not (event.shift or event.alt or event.oskey)
     if is_wheel and chosen.preferences(context).wheel_switches and chain.session.seed is not None:
         return Sign.ZOOM if event.ctrl else Action.NEXT

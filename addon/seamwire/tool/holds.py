@@ -52,7 +52,6 @@ class Hold:
         self._last, self._farthest, self._has_left = place, 0.0, False
 
     def follow_modifiers(self, event: Event) -> None:
-        """Take note of the modifiers that are released."""
         self.modifiers = [name for name in self.modifiers if getattr(event, name)]
 
     def move(self, place: Place, threshold: float) -> bool:
@@ -79,7 +78,6 @@ class Hold:
         return True
 
     def _begin(self) -> bool:
-        """Begin a drag. Return whether that is possible."""
         if self.what == "SEED":
             return self._session.drag(self.snap)
         if self.what == "LINE":
@@ -119,7 +117,6 @@ class Hold:
         return DRAW
 
     def cancel(self) -> None:
-        """Cancel without a change."""
         self._view.stroke = None
         self._session.cancel()
 

@@ -22,7 +22,6 @@ HELP_PANEL = "VIEW3D_PT_seamwire_help"
 
 
 def key_of(item: bpy.types.KeyMapItem) -> Key:
-    """Return the key of one of Blender's keymap items."""
     if item.any:
         return Key(item.type, item.value, -1, -1, -1, -1)
     # From 5.0 on a modifier of -1 means either; before, a flag tells.
@@ -176,7 +175,6 @@ def on_gizmo_with(event: bpy.types.Event, place: Place, context: bpy.types.Conte
 
 
 def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:
-    """Return whether a place lies on the navigation gizmo or a button below it."""
     space = place.area.spaces.active
     if not (space.show_gizmo and space.show_gizmo_navigate):
         return False

@@ -29,7 +29,6 @@ class NeedsEditMode:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode. If not, the tooltip of a disabled button says so."""
         obj = context.active_object
         if context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH":
             return True
@@ -69,7 +68,6 @@ def stop_listening() -> None:
 
 
 def draw_hints(header: bpy.types.Header, shown: Iterable[Hint]) -> None:
-    """Draw hints in a row."""
     row = header.layout.row(align=False)
     for icon, text in shown:
         row.label(text=text, icon=icon)

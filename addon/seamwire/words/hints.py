@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..terms.choices import LOOPS, ignores_shape
@@ -44,16 +43,6 @@ _IDLE = (
 """The gestures between chains: the name of the key, the text, and whether the mouse is dragged. Blender itself names a click."""
 
 
-@dataclass(frozen=True)
-class Status:
-    """The state of a chain, as far as the status bar describes it."""
-
-    picture: Picture  # of the object under the mouse
-    keys: Bindings
-    message: str = ""  # the result of the last key
-    mirror_offer: str = ""  # the letters of the axes that the mesh is symmetric over and that are not mirrored
-
-
 def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
     """Return what a newcomer can do before the first click, with the keys of the tool by the names of what they begin with."""
     found: list[Hint] = []
@@ -69,19 +58,22 @@ def _hint(icon: str, before: str, text: str) -> Hint:
     return icon or "NONE", f"{before}: {text}" if before else text
 
 
-def hints(status: Status) -> list[Hint]:
-    """Return at most `MOST` hints: first messages, then what a click does and how to end, then other keys by their usefulness."""
-    picture, keys = status.picture, status.keys
+def hints(picture: Picture, keys: Bindings, message: str = "", mirror_offer: str = "") -> list[Hint]:
+    """Return at most `MOST` hints: first messages, then what a click does and how to end, then other keys by their usefulness.
+
+    `message` is the result of the last key. `mirror_offer` has the letters of the axes that the mesh is symmetric over and not mirrored.
+    """
     found: list[Hint] = []
     work = picture.work
     if work.computing:
         waiting = f", {count(work.waiting, 'wire')} left" if work.waiting else ""
         found.append(("SORTTIME", f"Computing {min(99.0, 100.0 * work.progress):.0f} %{waiting}"))
-    if status.message:
-        found.append(("INFO", status.message))
+    if message:
+        found.append(("INFO", message))
     if picture.message:
         found.append(("ERROR", picture.message))
-    deeds = [*_click(picture), (Action.END, "End Chain"), (Action.KEYS, "Keys"), *_wires(picture), *_guides(status)]
+    ways = ((Action.END, "End Chain"), (Action.KEYS, "Keys"))
+    deeds = [*_click(picture), *ways, *_wires(picture), *_guides(picture, mirror_offer)]
     found += [_hint(*keys.icon(action), text) for action, text in deeds if keys.keys_of(action)]
     return found[:MOST]
 
@@ -133,10 +125,10 @@ def _wires(picture: Picture) -> Iterator[Deed]:
         yield Action.UNDO, "Undo"
 
 
-def _guides(status: Status) -> Iterator[Deed]:
-    picture, options = status.picture, status.picture.options
-    if status.mirror_offer and not options.mirror:
-        yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"
+def _guides(picture: Picture, mirror_offer: str) -> Iterator[Deed]:
+    options = picture.options
+    if mirror_offer and not options.mirror:
+        yield Action.MIRROR, f"Mirror? Symmetric on {mirror_offer}"
     if not ignores_shape(options.metric):
         yield Action.STRONGER, f"Strength {picture.strength:.3g}"
     yield Action.CLEAR, "Switch to Clear" if options.marking else "Switch to Mark"
