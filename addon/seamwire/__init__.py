@@ -29,7 +29,7 @@ _PARTS = (
     "mesh.settings",
     "ui.preferences",
     "operators.seam_operators",
-    "suggest.suggest_seams",
+    "suggesting.suggest_seams",
     "operators.island_operators",
     "tool.running",
     "tool.draw",

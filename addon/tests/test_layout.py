@@ -29,7 +29,7 @@ FLOORS = (
     "view",
     "tool",
     "operators",
-    "suggest",
+    "suggesting",
     "ui",
 )
 

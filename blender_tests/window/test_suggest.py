@@ -24,8 +24,8 @@ from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.mesh.settings import preferences
 from seamwire.operators.steps import Stepwise
-from seamwire.suggest import live_parts as suggest_live
-from seamwire.suggest import suggest_seams as suggest
+from seamwire.suggesting import live_parts as suggest_live
+from seamwire.suggesting import suggest_seams as suggest
 from seamwire.tool import keymaps as operators_keymaps
 from seamwire.tool.running import chains, listening
 from seamwire.tool.running import steps as searches

@@ -60,15 +60,9 @@ class LiveParts:
     """The parts of meshes while an artist changes them. Once it `is_enough`, planning stops, and the best plan so far is taken."""
 
     def __init__(
-        self,
-        search: SeamSearch,
-        preview: PlanPreview,
-        choice: PartChoice,
-        is_enough: Callable[[], bool],
+        self, search: SeamSearch, preview: PlanPreview, choice: PartChoice, is_enough: Callable[[], bool]
     ) -> None:
-        self._search = search
-        self._preview = preview
-        self._is_enough = is_enough
+        self._search, self._preview, self._is_enough = search, preview, is_enough
         self._choices = [choice]  # each that was made, also those that were taken back
         self._at = 0  # the one that is shown
         self.is_kept = False  # whether the artist has confirmed the parts
@@ -153,8 +147,8 @@ class LiveParts:
         self._preview.poll()
         plans = {each: plan for each in self._search if (plan := each.best_so_far) is not None}
         new = [suggestion for suggestion, plan in plans.items() if self._seen.get(suggestion) is not plan]
+        self._seen.update((suggestion, plans[suggestion]) for suggestion in new)
         for suggestion in new:
-            self._seen[suggestion] = plans[suggestion]
             self._show(suggestion)
         is_whole = len(plans) == len(self._search)
         if new and is_whole:
@@ -244,13 +238,12 @@ class LiveParts:
             return
         if waiting is not None:
             self._drop_search()  # the new search goes on from where that one leads
-        choice = self._choices[at]
+        self._begin(partial(self._counted, self._choices[at]), at)
 
-        def search(progress: Progress) -> PartChoice:
-            self._search.count(choice, progress)
-            return choice
-
-        self._begin(search, at)
+    def _counted(self, choice: PartChoice, progress: Progress) -> PartChoice:
+        """Return a choice after its parts were found, so that they are kept."""
+        self._search.count(choice, progress)
+        return choice
 
     def _drop_search(self) -> None:
         self._searches.pop()
@@ -280,12 +273,7 @@ class LiveParts:
         self._begin(search)
 
     def _part_by_next(self) -> None:
-        def search(progress: Progress) -> PartChoice:
-            choice = parted_by_next(self._choices[: self._at + 1])
-            self._search.count(choice, progress)
-            return choice
-
-        self._begin(search)
+        self._begin(lambda progress: self._counted(parted_by_next(self._choices[: self._at + 1]), progress))
 
     def _turned(self, what: str, notches: int, progress: Progress) -> PartChoice:
         choice = self.choice
@@ -299,10 +287,10 @@ class LiveParts:
             found = turned(
                 choice.amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
             )
-        self._search.count(replace(choice, amount=found), progress)  # so that its parts are kept
+        after = self._counted(replace(choice, amount=found), progress)
         if found != choice.amount:
             self._turns[choice.amount, notches], self._turns[found, -notches] = found, choice.amount
-        return replace(choice, amount=found)
+        return after
 
     def _count(self, amount: float, progress: Progress) -> int:
         if amount not in self._counts:
