@@ -17,11 +17,11 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.base.geometry import without_flat_triangles
 from ..core.base.mesh_arrays import Arrays
-from ..core.base.triangulation import without_flat_triangles
 from ..core.network.picks import vertices_of
 from ..core.storage.wire_labels import EdgeLabels
-from .versions import IS_OLD
+from .registration import IS_OLD
 
 if TYPE_CHECKING:
     from mathutils import Matrix

@@ -12,7 +12,7 @@ import numpy as np
 from mathutils import Vector
 
 from ..core.seams.slide_plan import SlidFaces
-from .versions import IS_OLD
+from .registration import IS_OLD
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..base.geometry import area_normals
-from .uv_islands import uv_areas
+from .uv_maps import uv_areas
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from .map_faults import MappedSurface
+    from .uv_maps import MappedSurface
 
     Side = Literal["-x", "+x", "-y", "+y", "-z", "+z"]
 
@@ -35,40 +35,15 @@ _ASIDE = 0.25
 
 
 @dataclass(frozen=True)
-class MapInScene:
-    """A map of an object with its name, and the matrix, (3, 3), from object coordinates to the axes of the scene."""
-
-    name: str
-    surface: MappedSurface
-    to_scene: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
 class CostlyIsland:
-    """The island that costs most of the UV square.
+    """The island that costs most of the UV square."""
 
-    Attributes
-    ----------
-    number
-        Its number in its map, from 0.
-    others
-        If the island is long: the number of other islands that are about as long. They would limit the scale in its place.
-    empty
-        If the island is not long: the empty fraction of the box around it, otherwise None.
-    name
-        The name of its object, or an empty text if there is only one map.
-    is_only
-        Whether there is no other island.
-    side
-        The side of the object on which it lies. None if it lies near the middle.
-    """
-
-    number: int
-    others: int = 0
-    empty: float | None = None
-    name: str = ""
-    is_only: bool = False
-    side: Side | None = None
+    number: int  # in its map, from 0
+    others: int = 0  # if it is long: how many others are about as long, and would limit the scale in its place
+    empty: float | None = None  # if it is not long: the empty fraction of the box around it
+    name: str = ""  # of its object, if there are several maps
+    is_only: bool = False  # whether there is no other island
+    side: Side | None = None  # the side of the object on which it lies; None near the middle
 
 
 @dataclass(frozen=True)
@@ -82,16 +57,16 @@ class SquareUse:
     costly: CostlyIsland | None = None
 
 
-def square_use(maps: Sequence[MapInScene]) -> SquareUse:
+def square_use(maps: Sequence[MappedSurface]) -> SquareUse:
     """Measure how maps use the UV square together.
 
     An island is long if it reaches from side to side of the square, and most of the free space lies beside the box around it. Otherwise
     the island counts whose box has most free space, if that is most of the box. Islands in the free space of another island fill it.
     """
-    uvs = np.concatenate([np.empty((0, 3, 2)), *(each.surface.uvs for each in maps)]).astype(np.float64)
-    starts = np.cumsum([0, *(each.surface.count for each in maps)])
+    uvs = np.concatenate([np.empty((0, 3, 2)), *(each.uvs for each in maps)]).astype(np.float64)
+    starts = np.cumsum([0, *(each.count for each in maps)])
     islands = np.concatenate(
-        [np.empty(0, dtype=np.int64), *(each.surface.labels + start for each, start in zip(maps, starts, strict=False))]
+        [np.empty(0, dtype=np.int64), *(each.labels + start for each, start in zip(maps, starts, strict=False))]
     )
     is_placed = np.isfinite(uvs).all(axis=(1, 2))
     areas = np.where(is_placed, uv_areas(uvs), 0.0)
@@ -137,13 +112,12 @@ def _costliest(
     return (int(numbers[worst]), 0, free / float(boxes[worst])) if is_empty else None
 
 
-def _side_of(own: MapInScene, number: int) -> Side | None:
+def _side_of(own: MappedSurface, number: int) -> Side | None:
     """Return the side of its object on which an island lies, by its center of area."""
-    surface = own.surface
-    points = surface.points @ own.to_scene.T
-    rows = surface.triangles[surface.labels == number]
+    points = own.points @ own.to_scene.T
+    rows = own.triangles[own.labels == number]
     weights = np.linalg.norm(area_normals(points, rows), axis=1)
-    seen = points[np.unique(surface.triangles)]
+    seen = points[np.unique(own.triangles)]
     low, high = seen.min(axis=0), seen.max(axis=0)
     if not weights.sum() > 0.0:
         return None
@@ -151,5 +125,4 @@ def _side_of(own: MapInScene, number: int) -> Side | None:
     axis = int(np.abs(away).argmax())
     if abs(away[axis]) < _ASIDE * 0.5 * (high - low).max():
         return None
-    sides: tuple[tuple[Side, Side], ...] = (("-x", "+x"), ("-y", "+y"), ("-z", "+z"))
-    return sides[axis][int(away[axis] > 0.0)]
+    return f"{'+' if away[axis] > 0.0 else '-'}{'xyz'[axis]}"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.components import groups
+from ..base.geometry import groups
 from ..network.drawn import Drawn
 from ..network.picks import undirected
 from ..network.wires import LOOP_KINDS
