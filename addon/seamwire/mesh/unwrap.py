@@ -167,8 +167,8 @@ class _Map:
     def to_place(self, corners: NDArray[np.int64], density: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """Return what there is to place of unwrapped islands: copies and islands with pins need no place.
 
-        These are triangles as rows of the islands' corners, (t, 3), all corners in the old map, (c, 2), the wanted areas of triangles in the
-        map, (t,), and which triangles are of islands that were laid out straight, (t,). A texel density is for islands that had none.
+        These are triangles as rows of the islands' corners, (t, 3), all corners in the old map, (c, 2), and for each triangle, (t,), its
+        wanted area in the map, and whether its island was laid out straight. A texel density is for islands that had none.
         """
         rows = np.isin(self._labels, np.setdiff1d(self._unpinned, self.stacked))
         labels = self._labels[rows]

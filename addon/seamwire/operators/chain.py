@@ -524,6 +524,6 @@ def _apply(view: ObjectView, change: Change) -> str:
         left = sum(map(change.finishes, change.after.wires))
         return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
     _, done = finishes.apply(view.mesh, change)
-    if done.text:
+    if done:
         edited.forget(view)
-    return done.text
+    return done
