@@ -28,31 +28,15 @@ CREST_KINDS: tuple[LoopKind, ...] = ("RIDGE", "VALLEY")
 
 @dataclass(frozen=True, eq=False)
 class Crests:
-    """Ridges and valleys, the strongest first: line i has the points starts[i] to starts[i + 1].
+    """Ridges and valleys, the strongest first: line i has the points starts[i] to starts[i + 1]."""
 
-    Parameters
-    ----------
-    points
-        (p, 3) each on an edge. A closed line ends with its first point.
-    edges, t
-        (p, 2) and (p,): which edge, and where on it, 0 to 1.
-    faces
-        (p,) the triangle that leads to the next point; -1 at a line's end.
-    curvatures
-        (p,) above 0 along ridges, below along valleys.
-    starts
-        (k + 1,).
-    strengths
-        (k,) the curvature along each line, in radians.
-    """
-
-    points: NDArray[np.float64]
-    edges: NDArray[np.int32]
-    t: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    curvatures: NDArray[np.float64]
-    starts: NDArray[np.int32]
-    strengths: NDArray[np.float64]
+    points: NDArray[np.float64]  # (p, 3) each on an edge; a closed line ends with its first point
+    edges: NDArray[np.int32]  # (p, 2) which edge
+    t: NDArray[np.float64]  # (p,) where on it, 0 to 1
+    faces: NDArray[np.int32]  # (p,) the triangle that leads to the next point; -1 at a line's end
+    curvatures: NDArray[np.float64]  # (p,) above 0 along ridges, below along valleys
+    starts: NDArray[np.int32]  # (k + 1,)
+    strengths: NDArray[np.float64]  # (k,) the curvature along each line, in radians
 
     @classmethod
     def on(

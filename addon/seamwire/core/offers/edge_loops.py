@@ -29,13 +29,7 @@ _MOST_KNOWN = 64
 
 
 class EdgeLoops:
-    """Finds what a click on an edge may add: loops, strips and borders of parts, in the order of the library.
-
-    Attributes
-    ----------
-    with_parts
-        Whether all parts of the mesh were known to the last `find`.
-    """
+    """Finds what a click on an edge may add: loops, strips and borders of parts, in the order of the library."""
 
     def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64], parts: PartSearch) -> None:
         self._engines = engines
@@ -45,7 +39,7 @@ class EdgeLoops:
         self._metric: tuple[object, ...] = ()
         self._loops: dict[Edge, LiveLoop] = {}
         self._taken: tuple[Pick | None, Wire | None] = (None, None)
-        self.with_parts = False
+        self.with_parts = False  # whether all parts of the mesh were known to the last `find`
 
     def took(self, edge: Edge, wire: Wire) -> None:
         self._taken = undirected(edge), wire
@@ -71,14 +65,8 @@ class EdgeLoops:
     ) -> tuple[tuple[Wire, ...], bool]:
         """Return what a click on an edge may take, and whether that is final. Raise ValueError if the edge is not part of the surface.
 
-        Parameters
-        ----------
-        snap
-            What is under the cursor, if that is the edge.
-        shown
-            The loop that was shown last, and whether the artist asked for it in place of the first one.
-        kept
-            The wire that such a click took, which comes first. If None, the newest one.
+        `shown` is the loop that was shown last, and whether the artist asked for it in place of the first one. The wire that such a click
+        took comes first: `kept`, or the newest one.
         """
         own = kept or self.taken_through(network, edge)
         if own is not None and own.offers:

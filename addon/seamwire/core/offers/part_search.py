@@ -30,24 +30,8 @@ AT_ONCE = 5_000
 class PartSearch:
     """Finds parts on a thread, for the loops that an edge offers.
 
-    Parameters
-    ----------
-    live
-        Returns live wires on the mesh, whose surface is used.
-    count
-        How many triangles the mesh has.
-    seams
-        Returns the edges, (k, 2), that part the mesh already.
-    find_parts
-        Yields the part of each triangle, (m,), for each of `AMOUNTS`. It takes the seams, and a function that returns whether to search
-        further. A thread calls it.
-
-    Attributes
-    ----------
-    finder
-        Finds loops; None until it is prepared.
-    is_complete
-        Whether the parts are known. Until then the finder knows only flat faces.
+    `count` is how many triangles the mesh has, and `seams` returns the edges, (k, 2), that part it already. `find_parts` yields the part of
+    each triangle, (m,), for each of `AMOUNTS`, on the thread. It takes the seams, and a function that returns whether to search further.
     """
 
     def __init__(
@@ -65,14 +49,11 @@ class PartSearch:
         self._stop = threading.Event()
         self._working = threading.Lock()
         self._error: Exception | None = None
-        self.finder: seamwire_core.LoopOffers | None = None
-        self.is_complete = False
+        self.finder: seamwire_core.LoopOffers | None = None  # finds loops; None until it is prepared
+        self.is_complete = False  # whether the parts are known; until then the finder knows only flat faces
 
     def ready(self) -> bool:
-        """Whether loops can be found. This begins to prepare that, and then to find the parts, on a thread that `stop` stops.
-
-        Raises Refused if an error has ended that.
-        """
+        """Begin to search, and return whether loops can be found. Raises Refused if an error has ended that."""
         if self._thread is None:
             self._error = None
             self._stop = threading.Event()
