@@ -127,7 +127,7 @@ class Cage:
             there = {edge.index: edge for pair in among if (edge := _edge(bm, pair)) is not None}
             edges = [there[number] for number in sorted(there)]
         elif was_read:
-            edges = [edges[row] for row in np.flatnonzero(_label_column(self.data)).tolist()]
+            edges = [edges[row] for row in np.flatnonzero(stored_labels(self.data)).tolist()]
         found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -181,7 +181,7 @@ class Cage:
         return found
 
 
-def _label_column(data: bpy.types.Mesh) -> NDArray[np.int32]:
+def stored_labels(data: bpy.types.Mesh) -> NDArray[np.int32]:
     """Return the label of each edge, (e,), in what Blender stored last of a mesh; nothing if no edge has any."""
     shared = data.copy() if data.is_editmode else data  # see `read`
     try:
@@ -190,11 +190,6 @@ def _label_column(data: bpy.types.Mesh) -> NDArray[np.int32]:
     finally:
         if shared is not data:
             bpy.data.meshes.remove(shared)
-
-
-def stored_labels(data: bpy.types.Mesh) -> list[int]:
-    """Return the labels of the edges in what Blender stored last of a mesh, each once."""
-    return [label for label in np.unique(_label_column(data)).tolist() if label]
 
 
 def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
@@ -245,17 +240,12 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
-        partly_hidden = edges[_are_sides(edges, triangles[~visible])]
+        sides = triangles[~visible][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        keys = (np.sort(pairs, axis=1).astype(np.int64) @ [1 << 32, 1] for pairs in (edges, sides))
+        partly_hidden = edges[np.isin(*keys)]
         triangles, polygons = triangles[visible], polygons[visible]
     stretch = visible_stretch(obj.matrix_world)
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
-
-
-def _are_sides(edges: NDArray[np.int32], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """Return which edges, (e, 2), are sides of triangles, (m, 3)."""
-    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    own, other = (np.sort(pairs, axis=1).astype(np.int64) @ [1 << 32, 1] for pairs in (edges, sides))
-    return np.isin(own, other)
 
 
 def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
@@ -374,7 +364,11 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
     selections = []
     objects = list(context.objects_in_mode_unique_data)
     # A million objects of Python take a second. Blender selects everything at once.
-    is_whole = all(_is_all_selected(obj.data) for obj in objects)
+    meshes = [(bmesh.from_edit_mesh(obj.data), obj.data) for obj in objects]
+    is_whole = all(
+        (len(bm.verts), len(bm.edges), len(bm.faces)) == (data.total_vert_sel, data.total_edge_sel, data.total_face_sel)
+        for bm, data in meshes
+    )
     for obj in objects:
         bm = edit_bmesh(obj.data)
         sequences = () if is_whole else (bm.verts, bm.edges, bm.faces)
@@ -397,12 +391,6 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
                 bm.select_history.add(item)
             bm.faces.active = active
             bmesh.update_edit_mesh(data, loop_triangles=False, destructive=False)
-
-
-def _is_all_selected(data: bpy.types.Mesh) -> bool:
-    bm = bmesh.from_edit_mesh(data)
-    selected = data.total_vert_sel, data.total_edge_sel, data.total_face_sel
-    return selected == (len(bm.verts), len(bm.edges), len(bm.faces))
 
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:

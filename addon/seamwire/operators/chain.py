@@ -406,7 +406,7 @@ class Chain:
         """
         view, self.drawn_on = self.drawn_on, None
         if view is not None and view.mesh.alive():
-            view.mesh.drop_changes(self._before)
+            view.session.adopt(self._before, view.mesh.plain_seams)
             if self._is_saved:
                 _write(view, adopt=True)
                 self._is_saved = False

@@ -23,7 +23,7 @@ from ..network.picks import undirected
 from ..network.wires import FOLLOWS, Wire
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
+    from collections.abc import Collection, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -88,11 +88,6 @@ def planned_wires(
     ]  # fmt: skip
 
 
-def curves_length(curves: Iterable[NDArray[np.float64]], to_scene: NDArray[np.float64]) -> float:
-    """Return the length of curves, (k, 3) each, in the coordinates that `to_scene`, (3, 3), takes them to."""
-    return float(sum(np.linalg.norm(np.diff(curve, axis=0) @ to_scene.T, axis=1).sum() for curve in curves))
-
-
 def cut_edges(plan: seamwire_core.SeamPlan, seams: NDArray[np.int32]) -> NDArray[np.int32]:
     """Return the edges, (k, 2), that are seams, and those that the wires of a plan run along."""
     chains = [np.stack([wire.vertices[:-1], wire.vertices[1:]], axis=1) for wire in plan.wires]
@@ -122,21 +117,14 @@ def stroke_weights(
             beside = edges[(near[edges] > 0.0).any(axis=1)]
             length = float(np.linalg.norm(np.diff(points[beside], axis=1), axis=2).mean()) if len(beside) else 0.0
             near[_distances(points, stroke.points) < _UNDER * length] = 1.0
-            near = _faded_by_rings(near, edges)
+            for ring in range(1, _STROKE_RINGS):
+                reached = near[edges] > 0.0
+                border = np.unique(edges[reached.any(axis=1) & ~reached.all(axis=1)])
+                near[border[near[border] == 0.0]] = 1.0 - ring / _STROKE_RINGS
         else:
             near = np.maximum(near, 1.0 - _distances(points, stroke.points) / stroke.radius)
         logarithms += -near if stroke.attracts else near
     return _STROKE_STRENGTH**logarithms
-
-
-def _faded_by_rings(near: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return (n,) values that are 1 at some vertices and 0 elsewhere with less than 1 on the rings of vertices around these."""
-    near = near.copy()
-    for ring in range(1, _STROKE_RINGS):
-        reached = near[edges] > 0.0
-        border = np.unique(edges[reached.any(axis=1) & ~reached.all(axis=1)])
-        near[border[near[border] == 0.0]] = 1.0 - ring / _STROKE_RINGS
-    return near
 
 
 def _distances(points: NDArray[np.float64], line: NDArray[np.float64]) -> NDArray[np.float64]:
