@@ -38,8 +38,6 @@ class CutError(Refused):
 
 @dataclass(frozen=True)
 class Cut:
-    """The result of a cut."""
-
     edges: tuple[Edge, ...]  # those that the wires run along
     seeds: Mapping[int | FacePoint, int]  # those asked for, with the numbers of their vertices
     vertices: int  # how many are new
@@ -59,10 +57,7 @@ def plan(arrays: Arrays, curves: Sequence[CutCurve]) -> CutPlan:
 
 
 def rehearse(cage: Cage, what: CutPlan) -> None:
-    """Cut a copy of an edit mesh, so that an error in splitting edges and faces comes before anything is changed.
-
-    Joining small islands and storing wires are not tried. The copy takes about 1 s for a million triangles.
-    """
+    """Cut a copy of an edit mesh, so that an error in splitting edges and faces comes before anything is changed."""
     bm = cage.number_bmesh().copy()
     try:
         _carry_out(bm, what, [])
@@ -224,7 +219,6 @@ def _borders(island: set[bmesh.types.BMFace], cuts: set[bmesh.types.BMEdge]) -> 
 def _vert_inside(
     bm: bmesh.types.BMesh, corners: Sequence[bmesh.types.BMVert], weights: Sequence[float]
 ) -> bmesh.types.BMVert:
-    """Make a vertex between two or three others, its attributes and shape keys interpolated."""
     place = sum((weight * corner.co for corner, weight in zip(corners, weights, strict=True)), Vector())
     vert = bm.verts.new(place)
     vert.copy_from_vert_interp(corners[:2], weights[1] / (weights[0] + weights[1]))

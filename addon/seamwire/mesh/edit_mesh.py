@@ -41,10 +41,7 @@ class NothingVisibleError(ValueError):
 
 
 def edit_bmesh(data: bpy.types.Mesh) -> bmesh.types.BMesh:
-    """Return the edit mesh of a mesh, each vertex, edge and face with its number. The rest of the add-on must use this function.
-
-    Some of Blender's operators, such as View Selected, leave other numbers behind.
-    """
+    """Return the edit mesh of a mesh with right numbers, which operators such as View Selected leave wrong. All of the add-on uses it."""
     return _numbered(bmesh.from_edit_mesh(data))
 
 
@@ -78,7 +75,6 @@ class Cage:
         return len(self._bm.verts), len(self._bm.edges), len(self._bm.faces)
 
     def intact(self) -> bool:
-        """Whether the edit mesh is still there, with as many vertices, edges and faces as before."""
         return self._is_edited and self._bm.is_valid and self._count() == self._counts
 
     @property
@@ -103,7 +99,6 @@ class Cage:
         return ""
 
     def active_vertex(self) -> int | None:
-        """Return the vertex that was selected last; None where it was none, or is hidden."""
         active = self.number_bmesh().select_history.active
         if not isinstance(active, bmesh.types.BMVert) or active.hide:
             return None
@@ -114,10 +109,7 @@ class Cage:
         return edge is not None and edge.seam
 
     def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
-        """Return the edges that have a label, in the order of their numbers.
-
-        If edges are given that include all with a label, only these are looked at. After `read`, the mesh can tell which edges have one.
-        """
+        """Return the labelled edges in the order of their numbers. They are looked for `among` some edges, or in what `read` has stored."""
         bm = self.number_bmesh()
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
@@ -142,10 +134,9 @@ class Cage:
         clear: Iterable[tuple[int, int]] = (),
         labels: Mapping[tuple[int, int], int] = MappingProxyType({}),
     ) -> tuple[int, int]:
-        """Make edges seams, and others no seams, give edges other labels, and change nothing else.
+        """Make edges seams, and others no seams, give edges other labels, and change nothing else. Return how many were changed of both.
 
-        Returns how many were not seams before, and how many of the others were. Raises ValueError where two vertices have no edge between
-        them; then nothing is changed.
+        Raises ValueError where two vertices have no edge between them; then nothing is changed.
         """
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
@@ -197,7 +188,6 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 
 
 def read(obj: bpy.types.Object) -> Arrays:
-    """Read the edit mesh of an object. Raises NothingVisibleError where no edge is visible."""
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
     # In edit mode the mesh does not show its attributes, but a copy does. It shares the data and costs nothing.
     shared = None if IS_OLD else obj.data.copy()
@@ -213,10 +203,7 @@ def read(obj: bpy.types.Object) -> Arrays:
 
 
 def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
-    """Read the mesh of an object in object mode as it is seen, with its modifiers and shape keys.
-
-    Also returns which vertices were selected in edit mode, (n,). Raises NothingVisibleError where no edge is visible.
-    """
+    """Read the mesh of an object in object mode as it is seen. Also return which vertices were selected in edit mode, (n,)."""
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     data = evaluated.to_mesh()
     try:
@@ -227,7 +214,6 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
 
 
 def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
-    """Return what the library needs of a mesh of an object, whose vertices are at other places where so given."""
     points = points.astype(np.float64)
     edges, visible = columns["edges"], ~columns["hidden edges"]
     seams = edges[visible & columns["seams"]]
@@ -249,7 +235,6 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
 
 
 def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
-    """Return which edges of a mesh, (e,), faces of several materials share."""
     found = np.zeros(len(data.edges), dtype=np.bool_)
     if len(data.materials) > 1:
         edges = column(data.loops, "edge_index", np.int32)
@@ -293,10 +278,7 @@ class _Columns:
 def _cut(
     data: bpy.types.Mesh, corners: NDArray[np.int32], points: NDArray[np.float64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too.
-
-    Reading a million triangles from Blender takes most of a second. They are read only if a face has more than four corners.
-    """
+    """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too."""
     count = len(data.polygons)
     sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
     if sizes.size and sizes.max() > 4:
@@ -308,7 +290,6 @@ def _cut(
 
 
 def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
-    """Return a property of all items, (n,), or (n, width)."""
     flat = np.empty(len(items) * width, dtype=dtype)
     items.foreach_get(name, flat)
     return flat if width == 1 else flat.reshape(-1, width)
@@ -349,10 +330,7 @@ def restored_after_errors(obj: bpy.types.Object) -> Iterator[None]:
 
 
 def live_unwrap(context: bpy.types.Context) -> None:
-    """Unwrap anew, as Blender's own tools for paths do after seams have changed, where the scene asks for it.
-
-    Blender does that wherever it marks seams: with nothing selected, marking does nothing else. The selection comes back.
-    """
+    """Unwrap anew if the scene asks for it: Blender does so wherever it marks seams, and with nothing selected that does nothing else."""
     if context.tool_settings.use_edge_path_live_unwrap:
         with nothing_selected(context):
             bpy.ops.mesh.mark_seam(clear=False)

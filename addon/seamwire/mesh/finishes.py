@@ -80,10 +80,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, str]:
 
 
 def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires, if that is the finish. The mesh has these wires.
-
-    Returns the session that goes on, and the number of moved vertices.
-    """
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. Also return the number of moved vertices."""
     if not wires or finish != "SLIDE":
         return mesh, 0
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
@@ -165,7 +162,6 @@ def cut(
 
 
 def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
-    """Let closed cuts that were taken before the mesh was changed be bent on it."""
     own = (each.of(mesh.session.drawn) for each in taken)
     mesh.session.offering.cuts.recall(each for each in own if each is not None)
 
@@ -317,7 +313,6 @@ def _rounded(value: Value) -> tuple[float, ...]:
 
 
 def _continued(corner: bmesh.types.BMLoop, place: Vector, layer: bmesh.types.BMLayerItem) -> Value:
-    """Return what a face's layer has at a place, continued from the triangle of a corner and those beside it."""
     three = (corner.link_loop_prev, corner, corner.link_loop_next)
     a, b, c = (np.array(one.vert.co) for one in three)
     # The weights whose mean is nearest to the place. Any of them may be negative.

@@ -39,7 +39,6 @@ def problem_with(obj: object) -> str:
 
 
 def _whereabouts(obj: bpy.types.Object) -> str:
-    """Say where an object is that is not in the view layer of the context."""
     scenes = [scene.name for scene in obj.users_scene]
     if not scenes:
         return "it is in no scene. Link it to a collection of the scene"

@@ -42,7 +42,6 @@ if TYPE_CHECKING:
 
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
-    """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
     if len(obj.vertex_groups) or obj.data.shape_keys is not None:
         return PLACED
     is_scan = native.load().has_scanned_edges(arrays.points, arrays.triangles, arrays.polygons)
@@ -163,7 +162,6 @@ class ObjectSession:
         return snapshot(settings, self.cage.data, self.find_auto())
 
     def find_auto(self) -> Auto:
-        """Return the values that Auto stands for here. The first call reads the mesh."""
         if self._auto is None:
             self._auto = auto_for(self.obj, self.arrays)
         return self._auto
@@ -172,7 +170,6 @@ class ObjectSession:
 
     @property
     def places(self) -> Places:
-        """Where the vertices are."""
         return Places(self.arrays.points, self.arrays.to_object)
 
     def alive(self) -> bool:
@@ -232,7 +229,6 @@ class ObjectSession:
         return self._labels.same_as(known) and np.array_equal(before, now)
 
     def _has_same_numbers(self) -> bool:
-        """Return whether what is drawn finds its vertices where they were, in a mesh with more or fewer vertices."""
         network = self.session.drawn
         of_wires = (vertex for wire in network.wires for edge in wire.claims() for vertex in edge)
         of_strokes = (vertex for stroke in network.strokes for vertex in stroke.corners.reshape(-1).tolist())
@@ -244,7 +240,6 @@ class ObjectSession:
         return bool(np.abs(moved).max(initial=0.0) <= self.places.tolerance)
 
     def _adopt(self, labels: EdgeLabels, seams: NDArray[np.int32]) -> None:
-        """Go on with the network that labels tell of, and the seams of the mesh."""
         self._learn(labels)
         self._labels = labels
         self._found = Found() if self._newer else wire_labels.read(labels, self._archive, self.places)
@@ -342,7 +337,6 @@ class ObjectSession:
         return written
 
     def adopt(self, plan: wire_labels.Plan) -> None:
-        """Let the session go on with the network that was written."""
         self.session.adopt(plan.network, self.plain_seams)
         _taken_cuts.keep(self.session.offering.cuts.taken(self.session.drawn), self.session.drawn, self.places)
 

@@ -46,7 +46,6 @@ class Pose:
         return True
 
     def places(self, curve: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return where the points of a curve on the surface, (k, 3), are seen."""
         if not self.is_bent or not len(curve) or not len(self._arrays.triangles):
             return curve
         _, triangles, weights = self._on_surface(curve)

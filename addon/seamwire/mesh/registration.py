@@ -23,7 +23,6 @@ IS_OLD = bpy.app.version[:2] < NEW
 
 
 def check_version(version: tuple[int, ...] = bpy.app.version) -> None:
-    """Raise RuntimeError if a version of Blender is not supported."""
     if version[:2] != OLD and version[:2] < NEW:
         found, old, new = ("{}.{}".format(*number[:2]) for number in (version, OLD, NEW))
         raise RuntimeError(f"Seamwire does not run in Blender {found}: use Blender {old}, or {new} or newer")

@@ -59,8 +59,6 @@ _MEASURING = 0.1
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Requirements for the wires and the seams."""
-
     along: Along | None  # None: as is best for the mesh
     finish: Finish | None  # None: as is best for the mesh
     symmetric: bool  # whether wires come in pairs where the mesh is symmetric
@@ -120,7 +118,6 @@ class Suggestion:
         self.marked = 0  # how many edges `write` made seams
 
     def measure(self, by: PartsBy, progress: Progress) -> seamwire_core.PartFinder:
-        """Measure the mesh for parts, once for each `by`. Return what finds them."""
         if by not in self._finders:
             arrays = self.mesh.arrays
             self._finders[by] = self._core.PartFinder(
@@ -137,7 +134,6 @@ class Suggestion:
 
     @property
     def automatic(self) -> PartsBy | None:
-        """What *Auto* has found to separate the parts; None if it was not asked."""
         return self._finders["AUTO"].by.upper() if "AUTO" in self._finders else None
 
     def count(self, choice: PartChoice, progress: Progress) -> int:
@@ -148,7 +144,6 @@ class Suggestion:
         return parts.count if self._within is None else len(np.unique(parts.of_face[self._within])) + self.others
 
     def choose(self, choice: PartChoice, progress: Progress) -> None:
-        """Find the parts of a choice, and take them. A plan for other parts is dropped."""
         found = self._parts_of(choice, progress)
         self._by, self.part_count = choice.by, self._counted(found)
         self.borders = [np.asarray(chain) for chain in found.borders]
@@ -161,7 +156,6 @@ class Suggestion:
         self.slits = []
 
     def _parts_of(self, choice: PartChoice, progress: Progress) -> seamwire_core.Parts:
-        """Find the parts of a choice, or take them from those that are kept."""
         edits = choice.edits.get(self.name, PartEdits())
         asked = choice.by, choice.amount, edits
         found = self._found.pop(asked, None)
@@ -177,7 +171,6 @@ class Suggestion:
 
     @property
     def seams(self) -> NDArray[np.int32]:
-        """The edges, (k, 2), that are seams, or borders between the chosen parts."""
         chains = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in self.borders]
         return np.concatenate([self.mesh.arrays.seams, *chains]).astype(np.int32)
 
@@ -198,7 +191,6 @@ class Suggestion:
         return axis if has_image.all() and planned[images[planned]].all() else None
 
     def _weights(self) -> NDArray[np.float64] | None:
-        """Return what the cost of wires is multiplied with at each vertex; None: by nothing."""
         arrays, strokes = self.mesh.arrays, self.mesh.session.network.strokes
         if self._within is None and not strokes:
             return None
@@ -267,7 +259,6 @@ class Suggestion:
         return self.laid_out[1]
 
     def energy_of(self, plan: seamwire_core.SeamPlan) -> float:
-        """Return the energy of the map of a plan: the one that `layout_of` has made, or else the planned one."""
         laid_out, _, _, energy = self.laid_out
         return energy if laid_out is plan else float(plan.energy)
 
@@ -276,10 +267,7 @@ class Suggestion:
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
-        """The best plan so far with a map of every part of the mesh, also while `plan` runs. Any thread may read it.
-
-        It has seams, unless the search has ended with it.
-        """
+        """The best plan so far with a map of every part and, unless the search has ended, with seams. Any thread may read it."""
         planner = self._planner
         return None if planner is None else self._useful(planner.best_so_far)
 
@@ -311,12 +299,10 @@ class Suggestion:
         return sum(length_of(curve @ scene.T) for curve in curves)
 
     def edges_of(self, plan: seamwire_core.SeamPlan) -> NDArray[np.int32]:
-        """Return the edges, (k, 2), that cut the mesh into the islands of a plan."""
         return seam_plan.cut_edges(plan, self.seams)
 
     @cached_property
     def area(self) -> float:
-        """The area of the visible surface, in the object's units squared."""
         return float(self._areas.sum())
 
     @cached_property
@@ -385,7 +371,6 @@ class SeamSearch:
         return sum(suggestion.count(choice, share) for suggestion, share in self._shares(progress))
 
     def choose(self, choice: PartChoice, progress: Progress = lambda _: True) -> None:
-        """Take the parts of a choice. Parts that were counted lately are not searched again."""
         for suggestion, share in self._shares(progress):
             suggestion.choose(choice, share)
 
@@ -394,9 +379,9 @@ class SeamSearch:
         self._options = replace(self._options, stretch=stretch, islands=islands)
 
     def used(self) -> SquareUse | None:
-        """Return how the maps that `layout_of` found last use the UV square together, packed as unwrapping packs them.
+        """Return how the maps that `layout_of` found last use the UV square, packed as unwrapping packs them. Any thread may call it.
 
-        It is None if a map is missing, or if unwrapping leaves islands in place. Any thread may call it.
+        It is None if a map is missing, or if unwrapping leaves islands in place.
         """
         laid_out = [suggestion.laid_out[1:3] for suggestion in self]
         if not self._is_first or any(uvs is None for uvs, _ in laid_out):
@@ -415,7 +400,6 @@ class SeamSearch:
 
     @property
     def _is_first(self) -> bool:
-        """Whether the meshes had no seams, and all of their islands are cut."""
         return not any(suggestion.had_seams or suggestion.others for suggestion in self)
 
     @property
@@ -447,7 +431,6 @@ class SeamSearch:
 
     @property
     def crumb(self) -> float:
-        """The fraction of a mesh's area below which islands beside cuts are merged."""
         crumbs = (suggestion.crumb() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return min(crumbs, default=0.0)
 

@@ -59,8 +59,6 @@ class Unwrapped:
 
 @dataclass(frozen=True)
 class Layout:
-    """How the islands of the method ``SEAMWIRE`` are laid out."""
-
     straight: bool = True  # strips and rectangles of quads lie along the axes, if that hardly stretches them
     upright: bool = True  # islands that are packed stand upright or are turned by quarters, otherwise in any direction
     stack: bool = False  # islands of the same shape, mirrored or not, lie on each other
@@ -137,7 +135,6 @@ class _Map:
         return sign, sign + 1
 
     def faces(self, islands: NDArray[np.integer]) -> NDArray[np.int64]:
-        """Return the faces of some islands."""
         return np.flatnonzero(np.isin(self._of_face, islands))
 
     def flattened(self, start: NDArray[np.float64] | None, layout: Layout) -> Solved:
@@ -159,7 +156,6 @@ class _Map:
         return corners, uvs, parts
 
     def unwrapped(self) -> Solved:
-        """Return the changed islands without pins, as they lie in the UV map that the mesh has."""
         corners = np.unique(self._triangles[np.isin(self._labels, self._unpinned)])
         uvs = uv_islands.read_uvs(self.obj)[corners] * (self.aspect, 1.0)
         return corners, uvs, self._of_face[self.corners.faces[corners]].astype(np.int64)
@@ -191,7 +187,6 @@ class _Map:
         return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
 
     def restore(self) -> None:
-        """Give all corners the UVs that they had."""
         if self._uvs is not None:
             self.write(np.arange(len(self._uvs)), self._uvs.astype(np.float64))
             bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
@@ -208,11 +203,9 @@ class _Map:
                     loop[layer].uv = places[number]
 
     def mapped(self) -> tuple[seamwire_core.UnwrapMesh, NDArray[np.int64], NDArray[np.float32]]:
-        """Return the mesh, the changed islands, and the UVs that the mesh has."""
         return self.mesh, self.changed, uv_islands.read_uvs(self.obj)
 
     def unmapped(self) -> int:
-        """Return how many hidden faces have no area in the UV map that the mesh has."""
         return self.mesh.count_unmapped(uv_islands.read_uvs(self.obj)) if (self._of_face < 0).any() else 0
 
     def turn_back(self) -> bool:
@@ -308,7 +301,6 @@ def faults_of(obj: bpy.types.Object, *, may_stack: bool = False) -> MapFaults:
 
 
 def _faults(maps: Sequence[_Map]) -> MapFaults:
-    """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
     mapped = [(*found.mapped(), found.before) for found in maps]
     return MapFaults(*native.load().map_faults(mapped, may_stack=any(len(found.stacked) for found in maps)))
 
@@ -379,7 +371,6 @@ def _find_copies(maps: Sequence[_Map]) -> list[_Copy]:
 
 
 def _pile_up(copies: Sequence[_Copy]) -> None:
-    """Lay copies on the islands that have a place."""
     present = {other: uv_islands.read_uvs(other.obj) for _, _, other, _ in copies}
     for found in dict.fromkeys(copy[0] for copy in copies):
         own = [(corners, present[other][below]) for each, corners, other, below in copies if each is found]

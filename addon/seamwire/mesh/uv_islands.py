@@ -51,10 +51,7 @@ def count_islands(obj: bpy.types.Object) -> int:
 
 
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the faces of the islands that need more cuts, and how many cuts each of these islands needs.
-
-    Closed islands, handles and tubes need cuts. Holes in nearly flat places may stay.
-    """
+    """Return the faces of islands that need more cuts, as closed islands, handles and tubes do, and how many cuts each needs."""
     arrays, labels = _read(obj)
     missing = np.asarray(native.load().missing_cuts(arrays.surface, arrays.seams, labels))
     return np.unique(arrays.polygons[missing[labels] > 0]), missing[missing > 0]
@@ -115,8 +112,6 @@ def _material_slot(obj: bpy.types.Object, hue: int) -> int:
 
 
 class Worst(NamedTuple):
-    """An island that is stretched."""
-
     value: float  # octaves, see `Stretch`
     faces: NDArray[np.int32]
     count: int  # of all islands of the mesh
@@ -148,7 +143,6 @@ def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:
 
 
 def mapped(obj: bpy.types.Object) -> MappedSurface | None:
-    """Read the visible faces of an edit mesh with their places in its active UV map; None if there are no UVs or no visible faces."""
     try:
         arrays = edit_mesh.read(obj)
     except edit_mesh.NothingVisibleError:
@@ -161,7 +155,6 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
 
 
 def maps_of(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, MappedSurface]:
-    """Read those of the edit meshes that have a map."""
     return {obj: found for obj in objects if (found := mapped(obj)) is not None}
 
 
@@ -182,7 +175,6 @@ def copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
 
 
 def corners_of(data: bpy.types.Mesh) -> Corners:
-    """Read the corners of a mesh that edit mode does not hold."""
     vertices, edges = (edit_mesh.column(data.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
     starts = edit_mesh.column(data.polygons, "loop_start", np.int32)
     return Corners(vertices, edges, np.diff(starts, append=len(vertices)))
@@ -197,7 +189,6 @@ def uvs_of(data: bpy.types.Mesh) -> NDArray[np.float32] | None:
 
 
 def pinned_of(data: bpy.types.Mesh) -> NDArray[np.bool_]:
-    """Return which corners are pinned, (c,)."""
     layer, count = data.uv_layers.active, len(data.loops)
     # The attribute of newer versions is empty while nothing is pinned.
     items, name = ((), "") if layer is None else (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
@@ -205,7 +196,6 @@ def pinned_of(data: bpy.types.Mesh) -> NDArray[np.bool_]:
 
 
 def read_map(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
-    """Read the corners of an edit mesh, and their UVs as `read_uvs` does."""
     with copied(obj) as data:
         return corners_of(data), uvs_of(data)
 

@@ -18,7 +18,6 @@ edges in single precision."""
 
 
 def length_of(curve: ArrayLike) -> float:
-    """Return the length of a curve through (k, d) points."""
     return float(np.linalg.norm(np.diff(curve, axis=0), axis=1).sum())
 
 
@@ -41,12 +40,8 @@ def barycentric(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Find a point, (d,), in triangles, (k, 3, d), or a point in each, (k, d).
 
-    Returns
-    -------
-    weights
-        (k, 3) barycentric coordinates of a place in each triangle that is the point or near it.
-    off
-        (k,) how far the point is from it, as part of the triangle's longest edge; infinite where that has no area.
+    Returns barycentric coordinates, (k, 3), of a place in each triangle that is the point or near it. Also returns how far the point is
+    from that place, (k,), as part of the triangle's longest edge: infinite if the triangle has no area.
     """
     a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     w = point - a
@@ -62,7 +57,6 @@ def barycentric(
 
 
 def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the areas, (m,), of (m, 3) triangles of (n, 3) points."""
     return 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
 
 

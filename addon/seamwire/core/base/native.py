@@ -66,10 +66,7 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
 
 
 def _import() -> ModuleType:
-    """Import the module from where Python finds it; on Windows a copy of it.
-
-    Nobody can overwrite or delete a loaded library there, so Blender could neither update nor remove the add-on.
-    """
+    """Import the module, on Windows a copy of it: a loaded library cannot be overwritten there, so Blender could not update the add-on."""
     found = PathFinder.find_spec(NAME) if sys.platform == "win32" else None
     if found is None or found.origin is None or not found.origin.endswith(".pyd"):
         return importlib.import_module(NAME)
@@ -120,7 +117,6 @@ def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
 
 
 def _unpacked(folder: Path, wheels: Path) -> Path:
-    """Return where to import from: the folder, or the one below it that the fitting wheel was unpacked to."""
     fitting = _fitting(wheels)
     if not fitting:
         return folder

@@ -39,8 +39,6 @@ PLACES = [(4 + 5 * hue) % HUES for hue in range(HUES)]
 
 @dataclass(frozen=True)
 class Islands:
-    """The islands that a network cuts a mesh into."""
-
     key: object  # of the request
     count: int
     labels: NDArray[np.int32]  # (m,) the island of each triangle
@@ -53,7 +51,6 @@ class Islands:
 
     @cached_property
     def sizes(self) -> NDArray[np.int64]:
-        """(count,) how many triangles each has."""
         return np.bincount(self.labels, minlength=self.count)
 
 
@@ -108,5 +105,4 @@ class IslandMaker(Newest[_Request, Islands]):
 
     @cached_property
     def _parts(self) -> int:
-        """How many parts the mesh has without cuts."""
         return int(np.max(self._label(np.empty((0, 2), dtype=np.int32)), initial=-1)) + 1

@@ -36,8 +36,6 @@ _ASIDE = 0.25
 
 @dataclass(frozen=True)
 class CostlyIsland:
-    """The island that costs most of the UV square."""
-
     number: int  # in its map, from 0
     others: int = 0  # if it is long: how many others are about as long, and would limit the scale in its place
     empty: float | None = None  # if it is not long: the empty fraction of the box around it
@@ -48,10 +46,7 @@ class CostlyIsland:
 
 @dataclass(frozen=True)
 class SquareUse:
-    """The fraction of the UV square that maps cover, and the island that costs most of the rest. Faces that overlap count twice.
-
-    `costly` is None if no single island is the cause.
-    """
+    """The fraction of the UV square that maps cover, and the island that costs most of the rest. Faces that overlap count twice."""
 
     share: float
     costly: CostlyIsland | None = None

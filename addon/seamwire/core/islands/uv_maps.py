@@ -31,11 +31,9 @@ class Corners:
 
     @cached_property
     def faces(self) -> NDArray[np.int64]:
-        """(c,) the face of each."""
         return np.repeat(np.arange(len(self.sizes)), self.sizes)
 
     def of_triangles(self, arrays: Arrays) -> NDArray[np.int64]:
-        """Return the corner that lies at each corner of the triangles, (m, 3)."""
         count = len(arrays.points)
         keys = self.faces * count + self.vertices
         order = np.argsort(keys, kind="stable")
@@ -44,7 +42,6 @@ class Corners:
 
 
 def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the areas of triangles, (t, 3, 2)."""
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
 
@@ -85,12 +82,10 @@ class MappedSurface:
 
     @property
     def count(self) -> int:
-        """The number of islands."""
         return int(self.labels.max(initial=-1)) + 1
 
     @property
     def area(self) -> float:
-        """The area on the model."""
         return float(triangle_areas(self.points, self.triangles).sum())
 
     def energy(self, aspect: float = 1.0) -> float:
@@ -126,7 +121,6 @@ class Stretch:
         self.angle = self.area = np.zeros(len(triangles))
 
     def update(self, uvs: NDArray[np.float32]) -> bool:
-        """Follow a UV map, (c, 2); return whether it is another than before."""
         if not len(self._areas) or (self._uvs is not None and np.array_equal(uvs, self._uvs)):
             return False
         self.angle, self.area = native.load().map_stretch(*self._mesh, uvs[self._corners])

@@ -45,7 +45,6 @@ class EdgeLoops:
         self._taken = undirected(edge), wire
 
     def taken_through(self, network: Drawn, edge: Edge) -> Wire | None:
-        """Return the newest wire of a network that a click on an edge took."""
         pick, wire = self._taken
         last = network.find(wire) if pick == undirected(edge) else None
         return network.taken_through(edge) if last is None or last.through is None else last
@@ -80,7 +79,6 @@ class EdgeLoops:
     def _offers(
         self, edge: Edge, network: Drawn, snap: Snap | None, before: tuple[Wire | None, bool]
     ) -> tuple[tuple[Wire, ...], bool]:
-        """Return what leads through an edge, the likeliest first, and whether that is final."""
         self._parts.ready()  # begins the search again if it was stopped
         self.with_parts = self._parts.is_complete
         crossing = None if snap is None else snap.crossing
@@ -105,10 +103,7 @@ class EdgeLoops:
         return tuple(self._wire(offer, edge) for offer in found), final
 
     def _loop(self, edge: Edge, network: Drawn) -> LiveLoop | None:
-        """Return the closed loop through an edge, or None while it is computed.
-
-        The library computes one loop at a time. The loops found are remembered as long as the metric stays.
-        """
+        """Return the closed loop through an edge, or None while the library computes it, one at a time."""
         engines = self._engines
         metric = network.strokes, engines.metric, engines.strengths["EDGES"], engines.clamp
         if metric != self._metric or len(self._loops) > _MOST_KNOWN:
@@ -135,10 +130,7 @@ class EdgeLoops:
 
 
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
-    """Return an offer as a wire to be kept, with the others in their order, the next one first.
-
-    A loop that crosses the picked edge is kept as a closed loop or a strip.
-    """
+    """Return an offer as a wire to be kept, with the others, the next one first. A crossing loop becomes a closed loop or a strip."""
     offers = tuple(
         replace(offer, kind="CLOSED" if offer.closed else "STRIP") if offer.kind == "CROSSING" else offer
         for offer in offers

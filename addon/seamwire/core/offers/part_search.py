@@ -75,14 +75,12 @@ class PartSearch:
             self._thread = None
 
     def renew(self) -> None:
-        """Forget the parts if the seams are others than they were found with."""
         if self._thread is not None and not np.array_equal(self._seams, self._seams_now()):
             self._stop.set()
             self._thread = None
             self.finder, self.is_complete = self._without_parts, False
 
     def wait(self) -> None:
-        """Wait until everything is known, if `ready` was called."""
         if self._thread is not None:
             self._thread.join()
 

@@ -81,7 +81,6 @@ def _runs_along(course: NDArray[np.float64], other: NDArray[np.float64], near: f
 
 
 def _mean_gap(course: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    """Return how far a course is from another, in the mean over its length."""
     steps = np.linalg.norm(np.diff(course, axis=0), axis=1)
     gaps = [
         np.nanmin(nearest_on_segments(place, other[:-1], other[1:])[1]) for place in 0.5 * (course[:-1] + course[1:])
@@ -101,7 +100,6 @@ class CutMemory:
         self._size = 0
 
     def keep(self, cuts: Iterable[TakenCut], network: Drawn, places: Places) -> None:
-        """Remember cuts that a mesh holds now, and the numbers that it knows their wires by, which `network` has."""
         number_of = {wire.id: wire.stored for wire in network.wires}
         for cut in cuts:
             numbers = frozenset(number_of[wire.id] for wire in cut.wires)
@@ -180,7 +178,6 @@ class SurfaceLoops:
         return next((cut for cut in known if cut.is_in(network)), None)
 
     def taken(self, network: Drawn) -> tuple[TakenCut, ...]:
-        """Return the cuts that a network still has unchanged, in the order in which they were added or recalled."""
         return tuple(cut for cut in self._cuts if cut.is_in(network))
 
     def recall(self, cuts: Iterable[TakenCut]) -> None:
@@ -188,10 +185,7 @@ class SurfaceLoops:
         self._cuts = list(cuts)
 
     def _id_of(self, cut: TakenCut, live: LiveWire) -> tuple[int, int] | None:
-        """Return what the library calls a cut that is bent; None while that is computed, where it was taken on another mesh.
-
-        On a mesh that was cut the numbers are others: it is the one that runs as the cut ran.
-        """
+        """Return the library's number of a cut that is bent. None while it is computed: on a mesh that was cut, numbers are others."""
         if cut.id is not None:
             return cut.id
         found = live.closed_wires(for_live(cut.through, "SURFACE"))

@@ -39,8 +39,6 @@ _SEED_REACH, _WIRE_REACH, _SEAM_REACH, _CREST_REACH = 9.0, 6.0, 4.0, 10.0
 
 @dataclass(frozen=True)
 class Camera:
-    """How a region sees the world."""
-
     width: float  # pixels
     height: float
     perspective: NDArray[np.float64]  # (4, 4), takes world coordinates to clip space

@@ -31,10 +31,7 @@ _SLICE = 0.005
 
 
 def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[list[int]]:
-    """Return seams, (k, 2) edges, as chains of vertices between those where they end or more than two meet.
-
-    Chains end at seeds as well. Closed ones end where they begin.
-    """
+    """Return seams, (k, 2), as chains of vertices between seeds, ends, and where more than two meet. Closed ones end where they begin."""
     return [chain.tolist() for chain in native.load().edge_chains(seams, list(seeds))]
 
 
@@ -99,7 +96,6 @@ def _reach(
 
 
 def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generator[None, None, tuple[int, int]]:
-    """Return how far a wire from the seed, without the edges before it, runs along a chain, and which of them does."""
     reached = begin + 1, 0
     # A wire does not end where it begins: around a circle there are two.
     last = len(chain) - (1 if begin == 0 and chain[0] == chain[-1] else 0)

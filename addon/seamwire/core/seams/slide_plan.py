@@ -105,7 +105,6 @@ def plan(faces: SlidFaces, courses: Iterable[Course], fixed: Collection[int] = (
 
 
 def places(points: NDArray[np.float64], moves: Iterable[Move]) -> NDArray[np.float64]:
-    """Return where moves lead, (k, 3)."""
     return np.array([np.array(move.weights) @ points[list(move.corners)] for move in moves]).reshape(-1, 3)
 
 
@@ -144,7 +143,6 @@ def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[n
 
 
 def _within(corners: NDArray[np.float64], place: NDArray[np.float64]) -> tuple[int, NDArray[np.float64]] | None:
-    """Return a place on some triangles, (k, 3, 3), as triangle and weights; None where it does not lie there."""
     weights, off = barycentric(corners, place)
     best = int(np.argmin(off))
     return (best, weights[best]) if off[best] <= _ON else None

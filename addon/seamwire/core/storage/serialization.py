@@ -68,11 +68,9 @@ class Places:
 
     @cached_property
     def in_object(self) -> NDArray[np.float64]:
-        """(n, 3) in object coordinates."""
         return self.points @ self.to_object.T
 
     def from_object(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return places in object coordinates, (k, 3), as sessions have them."""
         return places @ np.linalg.inv(self.to_object).T
 
     @property
@@ -146,10 +144,7 @@ class Archive:
         return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(plain, _FAST)).decode()}"
 
     def merge(self, other: Archive) -> bool:
-        """Take in the records of another archive.
-
-        Returns False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
-        """
+        """Take in the records of another archive, unless a number stands for something else there: labels would change what they mean."""
         pairs = [(own, other._kinds[name]) for name, own in self._kinds.items()]
         if any(self._is_taken(number, own, what) for own, more in pairs for number, what in more.items()):
             return False
@@ -176,14 +171,12 @@ class Archive:
         return kept
 
     def knows(self, label: int) -> bool:
-        """Whether what a label stands for is here."""
         return all(
             member == WAS_SEAM or abs(member) in self.wires or abs(member) in self.strokes
             for member in self.members(label)
         )
 
     def members(self, label: int) -> tuple[int, ...]:
-        """Return what a label stands for."""
         return self._sets.get(label, (label,))
 
     def label_of(self, members: Iterable[int]) -> int:
@@ -194,7 +187,6 @@ class Archive:
         return self.add(self._sets, wanted)
 
     def add(self, kind: dict[int, Any], what: object) -> int:
-        """Add a record to `wires` or `strokes`, and return its number."""
         digest = hashlib.blake2b(json.dumps(what, sort_keys=True).encode(), digest_size=4).digest()
         number = max(int.from_bytes(digest, "big") & 0x7FFFFFFF, _FIRST_NUMBER)
         while self._is_taken(number, kind, what):
@@ -210,7 +202,6 @@ def _size(what: object) -> int:
 
 
 def _number(text: str) -> int:
-    """Return the number of a record. Raise ValueError if it is not a number."""
     number = int(text)
     if not _FIRST_NUMBER <= number <= 0x7FFFFFFF:
         raise ValueError
@@ -337,7 +328,6 @@ def wire_of(record: Record, where: Places, vertices: tuple[int, ...] = ()) -> Wi
 
 
 def packed(points: NDArray[np.float64]) -> str:
-    """Write (k, 3) points in single precision."""
     return base64.b64encode(np.ascontiguousarray(points, dtype="<f4").tobytes()).decode()
 
 

@@ -45,7 +45,6 @@ class EdgeLabels:
 
     @cached_property
     def edges(self) -> list[Edge]:
-        """The edges, smaller vertex first."""
         return list(map(tuple, np.sort(self.pairs, axis=1).tolist()))
 
     @classmethod
@@ -184,7 +183,6 @@ def seams_beside(
 
 
 def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
-    """Return what labels tell of."""
     if not len(marks.labels):
         return Found()
     rows_of: dict[int, list[int]] = {}
@@ -225,10 +223,7 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
 
 
 def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
-    """Return which edges of images belong to each of a wire's copies.
-
-    Copies have larger vertices than what they were made of, hence come in its order.
-    """
+    """Return which edges of images belong to each of a wire's copies, which have larger vertices than what they were made of."""
     if count < 2 or len(images) % count:
         return [images, *([] for _ in range(count - 1))]
     size = len(images) // count
@@ -237,8 +232,6 @@ def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """A chain of edges that a wire's number stands on."""
-
     number: int
     record: Record
     vertices: tuple[int, ...]
@@ -251,7 +244,6 @@ class _Piece:
 
     @cached_property
     def numbers(self) -> dict[int, int]:
-        """The numbers that its stored vertices have now."""
         stored = self.record["vertices"]
         if self.unchanged:
             return dict(zip(stored, self.vertices, strict=True))
@@ -261,12 +253,10 @@ class _Piece:
         return serialization.pick_of(self.record[name])
 
     def edge_now(self, stored: Edge, edges: set[Edge]) -> Edge | None:
-        """Return a stored edge by the numbers that it has now, or None if it has no label."""
         one, two = map(self.numbers.get, stored)
         return None if one is None or two is None or undirected((one, two)) not in edges else (one, two)
 
     def pick(self, name: End, end: int, edges: set[Edge]) -> Pick:
-        """Return the seed at one end; the vertex where it ends, if the seed cannot be found."""
         stored, before = self.stored(name), self.record["vertices"]
         if not isinstance(stored, tuple):
             return self.numbers.get(stored, end)
@@ -319,10 +309,7 @@ def _chain(part: list[Edge], record: Record, places: Places) -> tuple[int, ...] 
 
 
 def _trail(edges: list[Edge], closed: bool) -> list[int] | None:
-    """Return the vertices along all of some edges, each run along once; None: they are no such trail.
-
-    Where it touches itself there are several: any of them marks the same edges.
-    """
+    """Return the vertices along all of some edges, each run along once; None: they are no such trail."""
     around: dict[int, list[Edge]] = {}
     for edge in edges:
         for vertex in edge:
@@ -369,7 +356,6 @@ def _directed(trail: list[int], record: Record, where: Places) -> tuple[int, ...
 
 
 def _ranks(vertices: Iterable[int]) -> NDArray[np.int64]:
-    """Return which of the vertices each is when they are sorted."""
     return np.unique(np.array(list(vertices)), return_inverse=True)[1]
 
 
