@@ -8,7 +8,7 @@ edges are left out of what wires may run on.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -174,13 +174,19 @@ class Cage:
 
 def stored_labels(data: bpy.types.Mesh) -> NDArray[np.int32]:
     """Return the label of each edge, (e,), in what Blender stored last of a mesh; nothing if no edge has any."""
-    shared = data.copy() if data.is_editmode else data  # see `read`
-    try:
+    with copied(data) if data.is_editmode else nullcontext(data) as shared:
         attribute = shared.attributes.get(LABELS)
         return np.empty(0, np.int32) if attribute is None else column(attribute.data, "value", np.int32)
+
+
+@contextmanager
+def copied(data: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+    """Copy a mesh, which itself shows no attributes in edit mode. In newer versions a copy shares the data and costs nothing."""
+    shared = data.copy()
+    try:
+        yield shared
     finally:
-        if shared is not data:
-            bpy.data.meshes.remove(shared)
+        bpy.data.meshes.remove(shared)
 
 
 def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
@@ -189,17 +195,12 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 
 def read(obj: bpy.types.Object) -> Arrays:
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
-    # In edit mode the mesh does not show its attributes, but a copy does. It shares the data and costs nothing.
-    shared = None if IS_OLD else obj.data.copy()
-    try:
-        columns, key = _Columns(shared or obj.data), obj.active_shape_key
+    with nullcontext(obj.data) if IS_OLD else copied(obj.data) as shared:
+        columns, key = _Columns(shared), obj.active_shape_key
         # The active shape key is edited and seen, and the mesh holds the basis. Without keys the index is what it was with them.
         is_basis = key is None or obj.active_shape_key_index == 0
         points = columns["points"] if is_basis else column(key.data, "co", np.float32, 3)
         return _arrays(obj, obj.data, columns, points)
-    finally:
-        if shared is not None:
-            bpy.data.meshes.remove(shared)
 
 
 def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
@@ -221,8 +222,15 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError(obj)
-    hidden = columns["hidden faces"]
-    triangles, polygons = _cut(data, columns["corners"], points)
+    hidden, corners, count = columns["hidden faces"], columns["corners"], len(data.polygons)
+    sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
+    # Into triangles as Blender does, but into none without area. Reading a million of them from Blender takes most of a second.
+    if sizes.max(initial=0) > 4:
+        data.calc_loop_triangles()
+        polygons = column(data.loop_triangles, "polygon_index", np.int32)
+        triangles = without_flat_triangles(points, column(data.loop_triangles, "vertices", np.int32, 3), polygons)
+    else:
+        triangles, polygons = native.load().cut_polygons(points, corners, sizes)
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
@@ -273,20 +281,6 @@ class _Columns:
         if found is None or not len(items):  # there may be no attribute where all values are 0
             return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
         return column(self._data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
-
-
-def _cut(
-    data: bpy.types.Mesh, corners: NDArray[np.int32], points: NDArray[np.float64]
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too."""
-    count = len(data.polygons)
-    sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
-    if sizes.size and sizes.max() > 4:
-        data.calc_loop_triangles()
-        polygons = column(data.loop_triangles, "polygon_index", np.int32)
-        triangles = column(data.loop_triangles, "vertices", np.int32, 3)
-        return without_flat_triangles(points, triangles, polygons), polygons
-    return native.load().cut_polygons(points, corners, sizes)
 
 
 def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:

@@ -81,7 +81,7 @@ class _Map:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
         self.aspect = uv_islands.aspect(obj)
-        with uv_islands.copied(obj) as data:
+        with edit_mesh.copied(obj.data) as data:  # `read` has updated it
             self.corners, self._uvs = uv_islands.corners_of(data), uv_islands.uvs_of(data)
             pinned = uv_islands.pinned_of(data)
             self._seams = edit_mesh.column(data.edges, "use_seam", np.bool_)

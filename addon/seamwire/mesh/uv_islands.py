@@ -7,7 +7,6 @@ Functions raise ValueError or NativeError where no face is visible, a coordinate
 from __future__ import annotations
 
 import colorsys
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 import bmesh
@@ -22,7 +21,7 @@ from . import edit_mesh
 from .registration import IS_OLD
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
@@ -163,17 +162,6 @@ def to_scene(obj: bpy.types.Object) -> NDArray[np.float64]:
     return np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
 
 
-@contextmanager
-def copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    """Copy the mesh, which itself shows no UVs in edit mode; in newer versions a copy shares the data and costs nothing."""
-    obj.update_from_editmode()
-    data = obj.data.copy()
-    try:
-        yield data
-    finally:
-        bpy.data.meshes.remove(data)
-
-
 def corners_of(data: bpy.types.Mesh) -> Corners:
     vertices, edges = (edit_mesh.column(data.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
     starts = edit_mesh.column(data.polygons, "loop_start", np.int32)
@@ -196,13 +184,15 @@ def pinned_of(data: bpy.types.Mesh) -> NDArray[np.bool_]:
 
 
 def read_map(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
-    with copied(obj) as data:
+    obj.update_from_editmode()
+    with edit_mesh.copied(obj.data) as data:
         return corners_of(data), uvs_of(data)
 
 
 def read_uvs(obj: bpy.types.Object) -> NDArray[np.float32] | None:
     """Read the places of an edit mesh's corners in the active UV map, (c, 2); None: there is no UV map."""
-    with copied(obj) as data:
+    obj.update_from_editmode()
+    with edit_mesh.copied(obj.data) as data:
         return uvs_of(data)
 
 
