@@ -134,15 +134,9 @@ def cut(
 ) -> tuple[ObjectSession, Cut]:
     """Cut the mesh as `plan_cut` has planned for these wires, and return the session that goes on.
 
-    Wires that are cut become wires along edges, between the seeds of those across the surface. The others stay as they are. Vertices, edges
-    and faces have other numbers then.
-
-    Parameters
-    ----------
-    kept
-        Whether the mesh has these wires already: their snapped edges cease to be seams.
-    crumb
-        The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
+    Wires that are cut become wires along edges, between the seeds of those across the surface. The others stay as they are. If the mesh has
+    these wires already (`kept`), their snapped edges cease to be seams. An island beside the cuts with less than the part `crumb` of the
+    mesh's area becomes part of a larger one.
     """
     taken = mesh.session.offering.cuts.taken(mesh.session.drawn)
     skipped = [number for number, _ in plan.left_out if number < len(wires)]

@@ -236,25 +236,13 @@ def unwrap_changed(
     every: bool = False,
     starts: Mapping[bpy.types.Object, NDArray[np.float64]] = MappingProxyType({}),
 ) -> Unwrapped:
-    """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
+    """Unwrap the islands whose seams have changed, or all, of all objects in edit mode; selections stay.
 
     Where nothing stays, all flattened islands are packed. Else each new island gets the texel density it had, and a place near its old
-    one, see ``seamwire_core.place_islands``; islands with pinned corners stay where Blender's unwrap puts them.
+    one, see ``seamwire_core.place_islands``. Blender unwraps and places islands with pinned corners, or all if it has another `method`.
+    `starts` are maps of some objects to start from, (m, 3, 2), in lengths on the model, for all visible triangles.
 
-    Parameters
-    ----------
-    method
-        ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
-        corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
-    every
-        Whether all islands are unwrapped, changed or not.
-    starts
-        Of some objects a map to start from, (m, 3, 2), in lengths on the model, for all visible triangles.
-
-    Raises
-    ------
-    ValueError, native.NativeError
-        If there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
+    Raises ValueError or NativeError if there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
     """
     maps, problems = [], []
     for obj in context.objects_in_mode_unique_data:
