@@ -18,8 +18,7 @@ from mathutils import Vector
 
 from ..core.base import native
 from ..core.base.geometry import length_of, triangle_areas
-from ..core.islands.square_use import square_use
-from ..core.islands.uv_maps import NO_FAULTS, MappedSurface
+from ..core.islands.uv_maps import NO_FAULTS, MappedSurface, square_use
 from ..core.network.picks import undirected
 from ..core.seams import seam_plan
 from ..core.seams.seam_plan import PartChoice, PartEdits
@@ -38,7 +37,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.islands.square_use import SquareUse
+    from ..core.islands.uv_maps import SquareUse
     from ..core.network.wires import Wire
     from ..terms.choices import Along, Finish, PartsBy
 

@@ -62,7 +62,7 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and report the number of islands."""
-        from ..core.islands.square_use import square_use
+        from ..core.islands.uv_maps import square_use
         from ..mesh.unwrap import Layout, unwrap_changed
         from ..mesh.uv_islands import maps_of
         from .edit_mesh_operator import changing

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from seamwire.core.islands.islands import Islands
-from seamwire.core.islands.square_use import SquareUse
+from seamwire.core.islands.uv_maps import SquareUse
 from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.core.seams.seam_wires import Gap
 from seamwire.terms.choices import KINDS

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.islands.square_use import CostlyIsland, square_use
-from seamwire.core.islands.uv_maps import MappedSurface
+from seamwire.core.islands.uv_maps import CostlyIsland, MappedSurface, square_use
 
 TILE = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]])
 
