@@ -232,7 +232,6 @@ class _Reader:
     def __init__(self, mesh: ObjectSession, across: bool) -> None:
         self._mesh = mesh
         self._across = across
-        self._find = mesh.finder()
 
     def chain(self, where: str, seeds: Sequence[Seed]) -> list[Pick]:
         """Return the picks of a chain."""
@@ -291,7 +290,7 @@ class _Reader:
                 f"{where}: {seed!r} is neither a vertex, nor an edge such as (7, 9), nor a place such as (0.1, 0.0, 2.5)"
             )
         try:
-            return self._find(place)
+            return self._mesh.point_at(place)
         except ValueError as error:
             raise ValueError(f"{where}: {error}") from error
 

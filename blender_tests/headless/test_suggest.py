@@ -27,9 +27,9 @@ from scene import (
 from seamwire.core.base import native
 from seamwire.core.base.geometry import triangle_areas
 from seamwire.core.islands.islands import IslandMaker
-from seamwire.core.seams.gaps import Gap, GapFinder
 from seamwire.core.seams.seam_plan import PartChoice, PartEdits, edits_text, energy_of, stretch_of
-from seamwire.mesh import edit_mesh, seam_islands, seam_search, uv_map
+from seamwire.core.seams.seam_wires import Gap, GapFinder
+from seamwire.mesh import edit_mesh, seam_search, uv_islands
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.view.object_view import ShownIslands
 from stored import agree, chains, session_on
@@ -37,7 +37,7 @@ from stored import island_count as islands
 
 
 def open_islands(obj: bpy.types.Object) -> int:
-    return len(seam_islands.faces_to_cut(obj)[1])
+    return len(uv_islands.faces_to_cut(obj)[1])
 
 
 def length(obj: bpy.types.Object) -> float:
@@ -340,12 +340,12 @@ def test_uvs_from_before_there_were_seams_are_replaced_and_later_ones_kept() -> 
     assert obj.data.uv_layers
     assert suggest(parts=0.0, distortion=40.0) == {"FINISHED"}
     assert is_good_map(obj)
-    before = uv_map.read_uvs(obj)
+    before = uv_islands.read_uvs(obj)
     arrays = edit_mesh.read(obj)
-    corners, _ = uv_map.read(obj)
-    eyes = np.unique(corners.of_triangles(arrays)[seam_islands.labels_of(arrays) > 0])
+    corners, _ = uv_islands.read_map(obj)
+    eyes = np.unique(corners.of_triangles(arrays)[uv_islands.labels_of(arrays) > 0])
     assert suggest(parts=0.0, distortion=28.0) == {"FINISHED"}
-    after = uv_map.read_uvs(obj)
+    after = uv_islands.read_uvs(obj)
     assert np.array_equal(after[eyes], before[eyes]), "they needed no seam"
     assert not np.array_equal(after, before)
 
@@ -496,7 +496,7 @@ def test_a_band_that_is_closed_after_half_a_turn_is_open_in_the_map() -> None:
 def test_the_report_tells_of_the_islands_that_the_mesh_has(
     suzanne: bpy.types.Object, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    assert seam_islands.count_islands(suzanne) == 3
+    assert uv_islands.count_islands(suzanne) == 3
     # As if a cut through faces had failed to part them.
     monkeypatch.setattr(seam_search.Suggestion, "write", lambda *_: None)
     assert suggest() == {"FINISHED"}
@@ -579,7 +579,7 @@ def test_the_mirror_of_selected_islands_counts_only_if_they_are_symmetric(planne
     obj = add_suzanne()
     edit()
     arrays = edit_mesh.read(obj)
-    labels = seam_islands.labels_of(arrays)
+    labels = uv_islands.labels_of(arrays)
     for label in (0, 1):  # the head, and one of the eyes
         bpy.ops.mesh.select_all(action="DESELECT")
         edit_mesh.select_faces(obj, arrays.polygons[labels == label][:1])
@@ -681,7 +681,7 @@ def test_scans_of_figures_are_parted_into_limbs(finish: str) -> None:
     assert suggest(along="SURFACE", finish=finish) == {"FINISHED"}
     assert is_good_map(obj)
     arrays = edit_mesh.read(obj)
-    labels = seam_islands.labels_of(arrays)
+    labels = uv_islands.labels_of(arrays)
     areas = np.bincount(labels, triangle_areas(arrays.points, arrays.triangles))
     assert areas.min() > 0.003 * areas.sum()
     centers = arrays.points[arrays.triangles].mean(axis=1)
@@ -693,7 +693,7 @@ def test_scans_of_figures_are_parted_into_limbs(finish: str) -> None:
 def sides_of_islands(obj: bpy.types.Object) -> list[set[bool]]:
     """Return on which sides of the plane y = 0 the triangles of each island lie."""
     arrays = edit_mesh.read(obj)
-    labels, places = seam_islands.labels_of(arrays), arrays.points[arrays.triangles].mean(axis=1)[:, 1]
+    labels, places = uv_islands.labels_of(arrays), arrays.points[arrays.triangles].mean(axis=1)[:, 1]
     is_beside = np.abs(places) > 1e-6  # a corner of the outline lies on the plane
     return [set((places[is_beside & (labels == label)] < 0.0).tolist()) for label in range(labels.max() + 1)]
 
@@ -794,7 +794,7 @@ def test_what_is_flat_needs_no_seam_and_gets_uvs(capfd: pytest.CaptureFixture[st
     assert suggest() == {"FINISHED"}
     assert "No seam needed: 1 island unwrapped" in capfd.readouterr().out
     assert seams(obj) == []
-    assert np.ptp(uv_map.read_uvs(obj), axis=0).min() > 0.9
+    assert np.ptp(uv_islands.read_uvs(obj), axis=0).min() > 0.9
     assert energy(obj) == pytest.approx(4.0, abs=1e-4)
     assert suggest() == {"CANCELLED"}, "nothing has changed since"
     assert "Nothing to add" in capfd.readouterr().out

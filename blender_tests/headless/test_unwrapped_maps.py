@@ -15,7 +15,7 @@ from scene import add_grid, add_object, add_suzanne, changing, edit, snapshot
 from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
-from seamwire.mesh.seam_islands import labels_of
+from seamwire.mesh.uv_islands import labels_of
 from seamwire.operators.after_chain import unwrap_after_chain
 
 

@@ -406,7 +406,7 @@ class Chain:
         """
         view, self.drawn_on = self.drawn_on, None
         if view is not None and view.mesh.alive():
-            view.mesh.drop_changes(self._before)
+            view.session.adopt(self._before, view.mesh.plain_seams)
             if self._is_saved:
                 _write(view, adopt=True)
                 self._is_saved = False
@@ -524,6 +524,6 @@ def _apply(view: ObjectView, change: Change) -> str:
         left = sum(map(change.finishes, change.after.wires))
         return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
     _, done = finishes.apply(view.mesh, change)
-    if done.text:
+    if done:
         edited.forget(view)
-    return done.text
+    return done

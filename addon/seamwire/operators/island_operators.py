@@ -71,7 +71,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
         from ..mesh import edit_mesh
-        from ..mesh.seam_islands import faces_to_cut
+        from ..mesh.uv_islands import faces_to_cut
 
         found = self.for_each_object(context, faces_to_cut)
         if not found:
@@ -88,7 +88,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
 
     def _select_worst_island(self, context: bpy.types.Context) -> set[str]:
         from ..mesh import edit_mesh
-        from ..mesh.seam_islands import worst_island
+        from ..mesh.uv_islands import worst_island
 
         found = self.for_each_object(context, lambda obj: worst_island(obj, self.kind))
         if not found:
@@ -135,7 +135,7 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Store the islands of all objects in Edit Mode."""
-        from ..mesh.seam_islands import store
+        from ..mesh.uv_islands import store
 
         with changing():
             found = self.for_each_object(context, lambda obj: store(obj, self.what))

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.network.wires import Wire
-    from ..core.seams.gaps import Gap
+    from ..core.seams.seam_wires import Gap
     from ..mesh.object_session import ObjectSession
 
 
@@ -105,7 +105,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _find(self, meshes: Iterable[ObjectSession]) -> dict[ObjectSession, list[Gap]]:
-        from ..core.seams.gaps import GapFinder
+        from ..core.seams.seam_wires import GapFinder
 
         found = {}
         for mesh in meshes:

@@ -62,9 +62,9 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and report the number of islands."""
-        from ..core.islands.square_use import square_use
-        from ..mesh.seam_islands import in_scene, maps_of
+        from ..core.islands.uv_maps import square_use
         from ..mesh.unwrap import Layout, unwrap_changed
+        from ..mesh.uv_islands import maps_of
         from .edit_mesh_operator import changing
 
         layout = Layout(self.straight, self.upright, self.stack)
@@ -79,7 +79,7 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
             has = "hidden face has no place", "hidden faces have no place"
             parts.append(f"{count(done.unmapped, *has)} in the map")
         with changing():
-            parts.append(square_used(square_use(in_scene(maps_of(done.objects)))))
+            parts.append(square_used(square_use([*maps_of(done.objects).values()])))
         self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 
