@@ -143,8 +143,6 @@ def add_pillow(rows: Sequence[str], fine: int = 8) -> bpy.types.Object:
     return add_object(points, faces, name="Pillow")
 
 
-
-
 GATE_SIDE = 17
 GATE_SEEDS = (8 * GATE_SIDE + 4, 8 * GATE_SIDE + 12)
 """The feet of the gate's ridge."""

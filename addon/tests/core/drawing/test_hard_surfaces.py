@@ -204,14 +204,6 @@ def test_all_borders_of_a_wall_are_shown_and_taken_at_once() -> None:
     assert session.wires == ()
 
 
-def test_a_slit_ends_at_a_seam() -> None:
-    session, _ = session_of(*with_fans(*prism(circle(16), 2.0, 4), rows=4))
-    session.loop((32, 33))
-    session.wait()
-    assert frozenset(session.wires[0].edges()) == ring_of(2, 16)
-    assert offers(session, Snap((50, 66)))[0] == ("STRIP", upright(2, 2, 4, 16))
-
-
 def test_a_barrel_offers_its_wall_its_lids_and_its_rims() -> None:
     session, arrays = session_of(*barrel())
     sides = 24
