@@ -56,23 +56,6 @@ def test_a_closed_mesh_of_polygons_without_seams_gets_a_valid_map(
     assert "Info: 1 island unwrapped, 0 kept, " in capfd.readouterr().out
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_a_single_seam_anywhere_leaves_the_map_valid(shape: str) -> None:
-    obj = add_shape(shape)
-    bm = bmesh.from_edit_mesh(obj.data)
-    wrong = []
-    for number in range(0, len(bm.edges), 1 if len(bm.edges) < 50 else 5):
-        while obj.data.uv_layers:
-            obj.data.uv_layers.remove(obj.data.uv_layers[0])
-        for edge in bmesh.from_edit_mesh(obj.data).edges:
-            edge.seam = edge.index == number
-        assert unwrap(changed_only=False) == {"FINISHED"}
-        found = flipped(obj), overlapping_pairs(obj)
-        if any(found):
-            wrong.append((number, *found))
-    assert wrong == []
-
-
 @pytest.mark.every_blender
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("is_joined", [False, True], ids=["split edges", "edges into the middle of sides"])
