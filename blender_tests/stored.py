@@ -9,7 +9,7 @@ from scene import Edge, seams
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import object_session
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.seam_islands import count_islands
+from seamwire.mesh.uv_islands import count_islands
 
 
 def session_on(obj: bpy.types.Object) -> ObjectSession:

@@ -18,8 +18,8 @@ REPEATS = 5
 
 def main() -> None:
     """Measure and print."""
-    from seamwire.core.islands.stretch import Stretch
-    from seamwire.mesh import edit_mesh, unwrap, uv_map
+    from seamwire.core.islands.uv_maps import Stretch
+    from seamwire.mesh import edit_mesh, unwrap, uv_islands
 
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=SIDE, y_subdivisions=SIDE)
     obj = bpy.context.active_object
@@ -36,17 +36,17 @@ def main() -> None:
         print(f"    {what:45s} {statistics.median(times):7.1f} ms", flush=True)
 
     def fixed() -> Stretch:
-        corners, _ = uv_map.read(obj)
+        corners, _ = uv_islands.read_map(obj)
         return Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
 
-    stretch, uvs = fixed(), uv_map.read_uvs(obj)
+    stretch, uvs = fixed(), uv_islands.read_uvs(obj)
     rng = np.random.default_rng(0)
 
     def all_anew() -> None:
         stretch.update(uvs * np.float32(rng.uniform(0.5, 2.0)))
 
     show("what of the mesh stays: corners and lengths", fixed)
-    show("Blender's UV map read in edit mode", lambda: uv_map.read_uvs(obj))
+    show("Blender's UV map read in edit mode", lambda: uv_islands.read_uvs(obj))
     show("the stretch of all faces", all_anew)
     show("its means by islands", lambda: stretch.islands(labels, "ANGLE"))
     show("the islands that have changed are found", lambda: unwrap._Map(obj, every=False, by_library=True))

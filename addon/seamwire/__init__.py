@@ -59,9 +59,10 @@ def unregister() -> None:
 
 
 def _changes() -> tuple[Callable[[], None], Callable[[], None]]:
-    parts = [import_module(f".{part}", __package__) for part in ("mesh.registration", "mesh.versions", *_PARTS)]
-    registration, versions, *others = parts
-    return registration.together((versions.check, _forget), *((part.register, part.unregister) for part in others))
+    registration, *others = (import_module(f".{part}", __package__) for part in ("mesh.registration", *_PARTS))
+    return registration.together(
+        (registration.check_version, _forget), *((part.register, part.unregister) for part in others)
+    )
 
 
 def _forget() -> None:

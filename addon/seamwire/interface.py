@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     from .view.layers import LayerMaker
 
 _NAMES = {
-    "core.base.components": "groups",
-    "core.base.geometry": "area_normals nearest_on_segments units",
+    "core.base.geometry": "area_normals groups nearest_on_segments units",
     "core.base.mesh_arrays": "Arrays",
     "core.base.native": "load",
     "core.base.newest": "Newest",

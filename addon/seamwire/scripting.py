@@ -234,7 +234,7 @@ class _Reader:
     """Reads the seeds that a script gives for a mesh, and for wires `across` the surface or along edges."""
 
     def __init__(self, mesh: ObjectSession, across: bool) -> None:
-        self._mesh, self._across, self._find = mesh, across, mesh.finder()
+        self._mesh, self._across = mesh, across
 
     def chain(self, where: str, seeds: Sequence[Seed]) -> list[Pick]:
         seeds = _listed(where, seeds, "seeds, such as [0, 512]")
@@ -287,7 +287,7 @@ class _Reader:
                 f"{where}: {seed!r} is neither a vertex, nor an edge such as (7, 9), nor a place such as (0.1, 0.0, 2.5)"
             )
         try:
-            return self._find(place)
+            return self._mesh.point_at(place)
         except ValueError as error:
             raise ValueError(f"{where}: {error}") from error
 

@@ -275,3 +275,29 @@ def test_no_property_sets_anything_or_reads_a_mesh() -> None:
                     if sets or (isinstance(inner, ast.Call) and ast.unparse(inner.func).split(".")[-1] in READERS):
                         found.append(f"{name_of(path)}.{node.name}: {ast.unparse(inner)}")
     assert found == []
+
+
+def told(node: ast.AST) -> Iterator[str]:
+    """Yield how each text begins that a call may tell the artist."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.JoinedStr):
+        if isinstance(node.values[0], ast.Constant):
+            yield node.values[0].value
+    elif isinstance(node, (ast.IfExp, ast.BoolOp)):
+        for part in (node.body, node.orelse) if isinstance(node, ast.IfExp) else node.values:
+            yield from told(part)
+
+
+def test_what_the_artist_is_told_are_sentences_where_they_are_sent() -> None:
+    sent = {"Refused", "ValueError", "refuse", "tell"}
+    found = []
+    for path in (*modules(), *sorted(NETWORKS.rglob("*.py")), *sorted(LAB.rglob("*.py"))):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.Call) or not node.args:
+                continue
+            if getattr(node.func, "id", getattr(node.func, "attr", "")) in sent:
+                found += [(path.name, text) for text in told(node.args[0])]
+    assert len(found) > 60
+    codes = [(name, text) for name, text in found if text and not (text[0].isupper() and " " in text)]
+    assert not codes

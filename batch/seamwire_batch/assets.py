@@ -35,14 +35,14 @@ def _import_obj(path: str) -> None:
 
 
 def _import_ply(path: str) -> None:
-    from seamwire.mesh.versions import IS_OLD
+    from seamwire.mesh.registration import IS_OLD
 
     (bpy.ops.import_mesh.ply if IS_OLD else bpy.ops.wm.ply_import)(filepath=path)
     _weld()
 
 
 def _import_stl(path: str) -> None:
-    from seamwire.mesh.versions import IS_OLD
+    from seamwire.mesh.registration import IS_OLD
 
     (bpy.ops.import_mesh.stl if IS_OLD else bpy.ops.wm.stl_import)(filepath=path)
 
@@ -100,7 +100,7 @@ def _export_obj(path: str) -> None:
 
 
 def _export_ply(path: str) -> None:
-    from seamwire.mesh.versions import IS_OLD
+    from seamwire.mesh.registration import IS_OLD
 
     if IS_OLD:
         bpy.ops.export_mesh.ply(filepath=path, use_uv_coords=True)

@@ -344,9 +344,8 @@ class Run:
     def _check_map(self, obj: bpy.types.Object) -> None:
         """Warn of what is wrong with the UV map that an object in edit mode has."""
         from seamwire.core.seams.seam_plan import stretch_of
-        from seamwire.mesh import uv_map
-        from seamwire.mesh.seam_islands import mapped
         from seamwire.mesh.unwrap import faults_of
+        from seamwire.mesh.uv_islands import aspect, mapped
         from seamwire.words.reports import in_words, not_reached, percent
 
         surface = mapped(obj)
@@ -357,7 +356,7 @@ class Run:
             self.warnings.append(f"{obj.name}: {hidden} of {faces} faces are hidden and were not unwrapped")
         told = in_words(faults_of(obj, may_stack=self._may_stack))
         if self._stretch_wanted:
-            stretch = 100.0 * stretch_of(surface.energy(uv_map.aspect(obj)))
+            stretch = 100.0 * stretch_of(surface.energy(aspect(obj)))
             missed = not_reached([stretch], self._stretch_wanted)
             told += [f"stretch {percent(stretch)}, {missed}"] if missed else []
         self.warnings += [f"{obj.name}: {text}" for text in told]
@@ -366,7 +365,7 @@ class Run:
         """Return the counts of seams and islands, and how many times longer or larger triangles are in the map on average and at worst."""
         import numpy as np
         from seamwire.mesh import edit_mesh
-        from seamwire.mesh.seam_islands import labels_of, stretch_of
+        from seamwire.mesh.uv_islands import labels_of, stretch_of
 
         from seamwire_batch.assets import AssetError
 
@@ -423,7 +422,7 @@ class Run:
         """Render the objects together; a picture that cannot be made is a warning."""
         from seamwire.core.seams.seam_wires import wires_between
         from seamwire.mesh import edit_mesh
-        from seamwire.mesh.seam_islands import labels_of
+        from seamwire.mesh.uv_islands import labels_of
 
         from seamwire_batch.pictures import Marks, Scene
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 import pytest
 from scene import ADDON, add_grid, edit, mark_wires, seams
-from seamwire.mesh import versions
+from seamwire.mesh import registration
 
 pytestmark = pytest.mark.every_blender
 
@@ -84,14 +84,14 @@ assert settings.preferences() == bpy.context.preferences.addons[{ADDON!r}].prefe
 def test_other_versions_of_blender_are_refused() -> None:
     for version in ((3, 3, 21), (3, 6, 23), (4, 1, 1)):
         with pytest.raises(RuntimeError, match=r"does not run in Blender .*: use Blender 3\.4, or 4\.2 or newer"):
-            versions.check(version)
+            registration.check_version(version)
     for version in ((3, 4, 1), (4, 2, 0), (4, 5, 3), (5, 2, 2)):
-        versions.check(version)
+        registration.check_version(version)
 
 
 def test_blender_is_told_the_same_oldest_versions() -> None:
-    package = Path(versions.__file__).parents[1]
+    package = Path(registration.__file__).parents[1]
     if not ADDON.startswith("bl_ext."):  # Blender reads no bl_info of an extension
-        assert sys.modules[ADDON].bl_info["blender"][:2] == versions.OLD
-    oldest = ".".join(map(str, versions.NEW))
+        assert sys.modules[ADDON].bl_info["blender"][:2] == registration.OLD
+    oldest = ".".join(map(str, registration.NEW))
     assert f'blender_version_min = "{oldest}.0"' in (package / "blender_manifest.toml").read_text("utf-8")

@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import pytest
 from scene import add_grid, changing, edit, mark_wires, snapshot
-from seamwire.mesh import edit_mesh, finishes, seam_islands
+from seamwire.mesh import edit_mesh, finishes, uv_islands
 from seamwire.mesh.object_session import ObjectSession
 
 
@@ -54,7 +54,7 @@ CASES = {
     "take_over": ({}, WRITES),
     "close_gaps": ({}, WRITES),
     "suggest": ({"islands": 3, "along": "EDGES"}, WRITES),
-    "store": ({"what": "ATTRIBUTE"}, (seam_islands, "_face_layer")),
+    "store": ({"what": "ATTRIBUTE"}, (uv_islands, "_face_layer")),
 }
 
 

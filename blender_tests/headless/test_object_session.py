@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, changing, edit, fail, mark_wires, seams, set_seams, snapshot
+from seamwire.core.sketch.change import Change
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -36,10 +37,14 @@ def grid() -> bpy.types.Object:
     return obj
 
 
-def draw(mesh: ObjectSession, *picks: int) -> None:
-    for pick in picks:
-        assert mesh.session.click(pick), mesh.session.reason
+def pick(mesh: ObjectSession, *picks: int) -> None:
+    for vertex in picks:
+        assert mesh.session.click(vertex), mesh.session.reason
         mesh.session.wait()
+
+
+def draw(mesh: ObjectSession, *picks: int) -> None:
+    pick(mesh, *picks)
     write(mesh)
 
 
@@ -250,11 +255,13 @@ def test_it_does_not_go_on_with_another_shape(grid: bpy.types.Object) -> None:
 
 def test_what_is_drawn_is_kept_after_a_script_has_written_other_wires(grid: bpy.types.Object) -> None:
     mesh = session_on(grid)
-    draw(mesh, 36, 44)
+    before = mesh.session.drawn
+    pick(mesh, 36, 44)
     draw(session_on(grid), 0, 4)
     assert not mesh.rebind(grid)
     assert mesh.alive(), "its wires can be finished"
-    write(mesh)
+    mesh.session.end_chain()
+    mesh.write(mesh.plan(Change(before, mesh.session.drawn)))
     assert chains(grid) == [(0, 1, 2, 3, 4), ROW]
     assert seams(grid) == sorted(chain(*range(5)) + chain(*ROW))
     assert agree(grid)
@@ -282,9 +289,7 @@ def test_it_tells_when_its_mesh_is_gone(grid: bpy.types.Object) -> None:
 def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.Object) -> None:
     draw(session_on(grid), 4, 22)
     mesh = session_on(grid)
-    for pick in (36, 44):
-        mesh.session.click(pick)
-        mesh.session.wait()
+    pick(mesh, 36, 44)
     mesh.session.end_chain()
     rest = snapshot(grid, with_seams=False)
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -13,7 +13,7 @@ from desk import Desk, choose, leave, second_window
 from numpy.typing import NDArray
 from scene import add_grid, changing, edit, seams
 from seamwire.core.islands import islands
-from seamwire.mesh import edit_mesh, uv_map
+from seamwire.mesh import edit_mesh, uv_islands
 from seamwire.view import edited_objects, object_view
 from seamwire.view.edited_objects import edited
 from seamwire.view.overlay import Overlay
@@ -190,7 +190,7 @@ def test_pointing_reads_and_copies_nothing_that_has_not_changed(ui: driver.Ui, m
             monkeypatch.setattr(owner, name, counted)
 
         count(edit_mesh, "read")
-        count(uv_map, "read_uvs")
+        count(uv_islands, "read_uvs")
         count(object_view, "let_blender_tell")
         for step in range(20):
             for x, y in at:

@@ -289,14 +289,6 @@ def test_a_key_beside_a_held_button_leaves_the_object_in_front(halves: driver.Ui
 # Seeds that are released
 
 
-def stroke(desk: Desk) -> None:
-    ui = desk.ui
-    ui.event("LEFTMOUSE", "PRESS", desk.at(10), shift=True)
-    for vertex in (11, 12, 13):
-        ui.move(desk.at(vertex), shift=True)
-    ui.event("LEFTMOUSE", "RELEASE", shift=True)
-
-
 def press_and_escape(desk: Desk) -> None:
     ui = desk.ui
     ui.move(desk.at(10))

@@ -8,7 +8,7 @@ import pytest
 import ui as driver
 from desk import Desk
 from scene import ADDON
-from seamwire.mesh.versions import IS_OLD
+from seamwire.mesh.registration import IS_OLD
 from seamwire.ui import preferences, toolbar
 
 

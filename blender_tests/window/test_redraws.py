@@ -10,7 +10,7 @@ import pytest
 from desk import Desk, draw
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
-from seamwire.core.islands.stretch import Stretch
+from seamwire.core.islands.uv_maps import Stretch
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh

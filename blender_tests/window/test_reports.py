@@ -12,7 +12,7 @@ import pytest
 from desk import Desk, draw
 from scene import chain, changing, mark_wires, seams
 from seamwire.core.sketch.picture import Role
-from seamwire.mesh import uv_map
+from seamwire.mesh import uv_islands
 
 ROW = chain(*range(36, 45))
 
@@ -127,7 +127,7 @@ def test_islands_are_unwrapped_again_after_their_uvs_were_reset(desk: Desk) -> N
         bpy.ops.mesh.seamwire_unwrap()
         bpy.ops.uv.reset()
         assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
-    uvs = uv_map.read_uvs(desk.obj)
+    uvs = uv_islands.read_uvs(desk.obj)
     assert len(np.unique(uvs.round(4), axis=0)) >= 81, "no face lies on another"
 
 

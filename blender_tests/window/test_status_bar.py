@@ -4,7 +4,7 @@
 import bpy
 import pytest
 from desk import Desk, choose
-from seamwire.mesh.versions import IS_OLD
+from seamwire.mesh.registration import IS_OLD
 from seamwire.tool import running as chain_status
 from seamwire.ui import toolbar
 

@@ -14,7 +14,7 @@ import ui as driver
 from desk import Desk, draw, grid, leave, near, undo_steps
 from mathutils import Vector
 from scene import chain, changing, seams
-from seamwire.core.islands.stretch import Stretch
+from seamwire.core.islands.uv_maps import Stretch
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 from seamwire.view.layers import HOT, StretchHeat, heat_colors

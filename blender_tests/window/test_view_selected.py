@@ -9,8 +9,8 @@ from desk import Desk, drag, draw
 from scene import chain, mark_wires, seams
 from seamwire.core.sketch.picture import Role
 from seamwire.core.sketch.sketch import Sketch
+from seamwire.mesh.registration import IS_OLD
 from seamwire.mesh.settings import settings
-from seamwire.mesh.versions import IS_OLD
 from stored import agree
 
 ROW = chain(*range(36, 45))

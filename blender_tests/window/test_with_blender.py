@@ -16,7 +16,7 @@ import stored
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import Desk, choose, dismiss, draw, second_window, send, undo_steps
-from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
+from scene import chain, changing, edit, fail, mark_wires, seams
 from seamwire.core.sketch.picture import Role, SeedRole, ShownSeed
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.sketch.wiring import Wiring
@@ -243,24 +243,6 @@ def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(d
     assert [wire.vertices for wire in desk.session.wires] == [tuple(range(37, 44))]
 
 
-def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    waited = []
-    monkeypatch.setattr(Sketch, "wait", lambda _: waited.append(1))
-    desk.choose()
-    ui = desk.ui
-    ui.move(desk.at(37))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(37))
-    for vertex in (38, 40, 42, 43):
-        ui.event("MOUSEMOVE", "NOTHING", desk.at(vertex), ticks=0)
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(43), ticks=0)
-    for key in ("RET", "ESC"):
-        ui.event(key, "PRESS", ticks=0)
-        ui.event(key, "RELEASE", ticks=0)
-    ui.wait_until(lambda: not desk.running)
-    assert waited == []
-    assert seams(desk.obj) == chain(*range(37, 44))
-
-
 def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
     ui = desk.ui
     desk.choose()
@@ -481,15 +463,6 @@ def test_what_is_prepared_is_freed_a_while_after_edit_mode_was_left(
         bpy.ops.object.mode_set(mode="EDIT")
     desk.ui.move(desk.at(50))
     desk.ui.wait_until(lambda: len(desk.session.wires) == 1)
-
-
-def test_another_add_ons_seams_end_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
-    live(desk)
-    set_seams(desk.obj, (0, 1))
-    desk.ui.wait()
-    desk.ui.move(desk.at(53))
-    assert not desk.running
-    assert seams(desk.obj) == [(0, 1), *ROW]
 
 
 def break_overlay(desk: Desk, broken: pytest.MonkeyPatch) -> None:

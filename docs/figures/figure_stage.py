@@ -153,7 +153,7 @@ class Stage:
         self._view = float(np.degrees(np.arctan2(y, x))), float(np.clip(np.degrees(np.arcsin(z)), -70.0, 70.0))
 
     def _add(self, points: NDArray, triangles: NDArray, corner_colors: NDArray, smooth: bool) -> None:
-        from seamwire.mesh.versions import IS_OLD
+        from seamwire.mesh.registration import IS_OLD
 
         mesh = bpy.data.meshes.new("Part")
         count = len(triangles)

@@ -46,8 +46,7 @@ from seamwire.core.network.stops import Stops
 from seamwire.core.network.strokes import for_library
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.network.wires import Wire
-from seamwire.core.offers.edge_loops import LoopOffers
-from seamwire.core.offers.part_search import AMOUNTS, PartSearch
+from seamwire.core.offers.edge_loops import AMOUNTS, LoopOffers, PartSearch
 from seamwire.core.solver.solver import Engines
 
 if TYPE_CHECKING:

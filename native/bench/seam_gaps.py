@@ -19,7 +19,7 @@ import seamwire_core
 from seams_engine import fan_triangles, polygon_edges
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.core.seams.gaps import GapFinder  # these know no Blender
+from seamwire.core.seams.seam_wires import GapFinder  # these know no Blender
 
 _SHORTEST = 8
 _NEAR_END = 3

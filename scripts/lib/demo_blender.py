@@ -77,7 +77,7 @@ def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: i
 def suggest(obj: bpy.types.Object) -> pictures.Marks:
     """Mark seams and unwrap with the add-on's operator; return the wires that the mesh has then, and see that the seams are theirs."""
     from seamwire.mesh.object_session import ObjectSession
-    from seamwire.mesh.seam_islands import labels_of
+    from seamwire.mesh.uv_islands import labels_of
 
     bpy.ops.object.mode_set(mode="EDIT")
     try:
@@ -99,7 +99,7 @@ def suggest(obj: bpy.types.Object) -> pictures.Marks:
 
 def stretch(obj: bpy.types.Object, points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return for each triangle how many times longer its longest direction in the unwrapping is than its shortest."""
-    from seamwire.core.islands.stretch import Stretch
+    from seamwire.core.islands.uv_maps import Stretch
 
     mesh = obj.data
     corners = column(mesh.loop_triangles, "loops", np.int32, 3)

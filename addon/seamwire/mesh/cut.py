@@ -19,7 +19,7 @@ from mathutils import Vector
 
 from ..core.base import native
 from ..core.base.refused import Refused
-from ..core.network.picks import FacePoint
+from ..core.network.picks import FacePoint, undirected
 
 if TYPE_CHECKING:
     from seamwire_core import CutCurve, CutPlan
@@ -38,8 +38,6 @@ class CutError(Refused):
 
 @dataclass(frozen=True)
 class Cut:
-    """The result of a cut."""
-
     edges: tuple[Edge, ...]  # those that the wires run along
     seeds: Mapping[int | FacePoint, int]  # those asked for, with the numbers of their vertices
     vertices: int  # how many are new
@@ -59,10 +57,7 @@ def plan(arrays: Arrays, curves: Sequence[CutCurve]) -> CutPlan:
 
 
 def rehearse(cage: Cage, what: CutPlan) -> None:
-    """Cut a copy of an edit mesh, so that an error in splitting edges and faces comes before anything is changed.
-
-    Joining small islands and storing wires are not tried. The copy takes about 1 s for a million triangles.
-    """
+    """Cut a copy of an edit mesh, so that an error in splitting edges and faces comes before anything is changed."""
     bm = cage.number_bmesh().copy()
     try:
         _carry_out(bm, what, [])
@@ -78,7 +73,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
     """
     bm = cage.number_bmesh()
     before = len(bm.verts)
-    with _changing(cage):
+    try:
         seams, seed_verts, uncut = _carry_out(bm, what, list(seeds))
         new = [edge for edge in seams if not edge.seam]
         for edge in seams:
@@ -86,22 +81,17 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
         if crumb > 0.0:
             _join_crumbs(bm, new, crumb * sum(face.calc_area() for face in bm.faces))
             seams = [edge for edge in seams if edge.seam]
+    finally:
+        # Blender is told of changes even where they end on an error. Its update keeps the normals, and a face that was split while it was
+        # drawn as a regular polygon has the wrong one.
+        bm = cage.number_bmesh()
+        bm.normal_update()
+        bmesh.update_edit_mesh(cage.data, loop_triangles=True, destructive=True)
     bm = cage.number_bmesh()
-    pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
+    pairs = {undirected((edge.verts[0].index, edge.verts[1].index)) for edge in seams}
     # Those inside a face that could not be cut went.
     numbers = {seed: vert.index for seed, vert in seed_verts.items() if vert.is_valid}
     return Cut(tuple(sorted(pairs)), numbers, len(bm.verts) - before, uncut)
-
-
-@contextmanager
-def _changing(cage: Cage) -> Iterator[None]:
-    """Tell Blender of changes, even where they end on an error."""
-    try:
-        yield
-    finally:
-        # Blender's update keeps the normals, and a face that was split while it was drawn as a regular polygon has the wrong one.
-        cage.number_bmesh().normal_update()
-        bmesh.update_edit_mesh(cage.data, loop_triangles=True, destructive=True)
 
 
 def _carry_out(
@@ -110,7 +100,8 @@ def _carry_out(
     """Cut, and return the edges along the cuts, the seeds, and how many faces could not be cut."""
     for items in (bm.verts, bm.edges, bm.faces):
         items.ensure_lookup_table()
-    nodes = _nodes(what)
+    rows = zip((what.vertices >= 0).sum(axis=1).tolist(), what.vertices.tolist(), what.weights.tolist(), strict=True)
+    nodes: list[Node] = [(tuple(vertices[:count]), tuple(weights[:count])) for count, vertices, weights in rows]
     corners = {vertex: bm.verts[vertex] for vertices, _ in nodes for vertex in vertices}
     seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
     faces = {polygon: (bm.faces[polygon], list(bm.faces[polygon].verts)) for polygon, _, _ in what.across}
@@ -128,63 +119,43 @@ def _carry_out(
     at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
     seed_verts |= {seed: vert_of[node] for seed, node in at_points.items() if node is not None}
     new = [vert for node, vert in vert_of.items() if len(nodes[node][0]) > 1]
-    seams = list(_edges_along(bm, what, vert_of))
-    node_of = {vert: nodes[node] for node, vert in vert_of.items()}
+    seams, node_of = [], {vert: nodes[node] for node, vert in vert_of.items()}
+    for one, two in what.along.tolist():
+        edge = bm.edges.get((vert_of[one], vert_of[two]))
+        if edge is None:
+            raise CutError(f"A wire does not run over the mesh near vertex {int(what.vertices[one, 0])}")
+        seams.append(edge)
     uncut, left = 0, set()
-    made: set[bmesh.types.BMEdge] = set()
     for polygon, cuts, is_folded in what.across:
         face, rim = faces[polygon]
         ends = [(vert_of[one], vert_of[two]) for one, two in cuts.tolist()]
-        edges = _edges_between(bm, ends, made)
+        known = [bm.edges.get(segment) for segment in ends]
+        edges = [
+            edge or bm.edges.get(segment) or bm.edges.new(segment) for edge, segment in zip(known, ends, strict=True)
+        ]
         if is_folded or not _split(face, edges):
             between = {vert: node_of[vert] for vert in {*face.verts, *itertools.chain(*ends)} - {*rim}}
             with _drawn(face, rim, between, corners):
                 _split(face, edges)
         loose = {edge for edge in edges if not edge.link_faces}
         uncut += bool(loose)
-        left |= loose
+        left |= loose.difference(known)
         seams += [edge for edge in edges if edge not in loose]
-    _remove_loose(bm, left & made)
-    _spread_selection(bm, [vert for vert in new if vert.is_valid])
-    return seams, seed_verts, uncut
-
-
-def _nodes(what: CutPlan) -> list[Node]:
-    counts = (what.vertices >= 0).sum(axis=1).tolist()
-    rows = zip(counts, what.vertices.tolist(), what.weights.tolist(), strict=True)
-    return [(tuple(vertices[:count]), tuple(weights[:count])) for count, vertices, weights in rows]
-
-
-def _edges_along(
-    bm: bmesh.types.BMesh, what: CutPlan, vert_of: Mapping[int, bmesh.types.BMVert]
-) -> Iterator[bmesh.types.BMEdge]:
-    """Yield the edges that cuts run along. Raises `CutError` if there is no such edge."""
-    for one, two in what.along.tolist():
-        edge = bm.edges.get((vert_of[one], vert_of[two]))
-        if edge is None:
-            raise CutError(f"A wire does not run over the mesh near vertex {int(what.vertices[one, 0])}")
-        yield edge
-
-
-def _remove_loose(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) -> None:
-    """Remove edges of faces that could not be cut, and the vertices that nothing else holds."""
-    ends = set()
-    for edge in edges:
-        if not edge.link_faces:
-            ends.update(edge.verts)
-            bm.edges.remove(edge)
+    # New edges in faces that could not be cut go, with the vertices that nothing else holds.
+    loose = [edge for edge in left if not edge.link_faces]
+    ends = {vert for edge in loose for vert in edge.verts}
+    for edge in loose:
+        bm.edges.remove(edge)
     for vert in ends:
         if not vert.link_edges:
             bm.verts.remove(vert)
-
-
-def _spread_selection(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]) -> None:
-    """Select new vertices, and the edges between them, that lie on selected faces and edges."""
-    selected = [item for vert in verts for item in (*vert.link_faces, *vert.link_edges) if item.select]
-    for item in selected:
+    # New vertices, and the edges between them, that lie on selected faces and edges are selected.
+    beside = [item for vert in new if vert.is_valid for item in (*vert.link_faces, *vert.link_edges) if item.select]
+    for item in beside:
         item.select = True
-    if selected:
+    if beside:
         bm.select_flush_mode()
+    return seams, seed_verts, uncut
 
 
 def _join_crumbs(bm: bmesh.types.BMesh, cuts: Collection[bmesh.types.BMEdge], least: float) -> None:
@@ -248,7 +219,6 @@ def _borders(island: set[bmesh.types.BMFace], cuts: set[bmesh.types.BMEdge]) -> 
 def _vert_inside(
     bm: bmesh.types.BMesh, corners: Sequence[bmesh.types.BMVert], weights: Sequence[float]
 ) -> bmesh.types.BMVert:
-    """Make a vertex between two or three others, its attributes and shape keys interpolated."""
     place = sum((weight * corner.co for corner, weight in zip(corners, weights, strict=True)), Vector())
     vert = bm.verts.new(place)
     vert.copy_from_vert_interp(corners[:2], weights[1] / (weights[0] + weights[1]))
@@ -258,22 +228,6 @@ def _vert_inside(
         vert.copy_from_vert_interp([beside, corners[2]], weights[2])
         bm.verts.remove(beside)
     return vert
-
-
-def _edges_between(
-    bm: bmesh.types.BMesh,
-    segments: Iterable[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
-    made: set[bmesh.types.BMEdge],
-) -> list[bmesh.types.BMEdge]:
-    """Return the edges between pairs of vertices. New ones belong to no face, and are added to `made`."""
-    edges = []
-    for segment in segments:
-        edge = bm.edges.get(segment)
-        if edge is None:
-            edge = bm.edges.new(segment)
-            made.add(edge)
-        edges.append(edge)
-    return edges
 
 
 def _split(face: bmesh.types.BMFace, edges: Sequence[bmesh.types.BMEdge]) -> bool:

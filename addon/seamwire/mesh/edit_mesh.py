@@ -8,7 +8,7 @@ edges are left out of what wires may run on.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -17,11 +17,11 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.base.geometry import without_flat_triangles
 from ..core.base.mesh_arrays import Arrays
-from ..core.base.triangulation import without_flat_triangles
 from ..core.network.picks import vertices_of
 from ..core.storage.wire_labels import EdgeLabels
-from .versions import IS_OLD
+from .registration import IS_OLD
 
 if TYPE_CHECKING:
     from mathutils import Matrix
@@ -41,10 +41,7 @@ class NothingVisibleError(ValueError):
 
 
 def edit_bmesh(data: bpy.types.Mesh) -> bmesh.types.BMesh:
-    """Return the edit mesh of a mesh, each vertex, edge and face with its number. The rest of the add-on must use this function.
-
-    Some of Blender's operators, such as View Selected, leave other numbers behind.
-    """
+    """Return the edit mesh of a mesh with right numbers, which operators such as View Selected leave wrong. All of the add-on uses it."""
     return _numbered(bmesh.from_edit_mesh(data))
 
 
@@ -78,7 +75,6 @@ class Cage:
         return len(self._bm.verts), len(self._bm.edges), len(self._bm.faces)
 
     def intact(self) -> bool:
-        """Whether the edit mesh is still there, with as many vertices, edges and faces as before."""
         return self._is_edited and self._bm.is_valid and self._count() == self._counts
 
     @property
@@ -103,7 +99,6 @@ class Cage:
         return ""
 
     def active_vertex(self) -> int | None:
-        """Return the vertex that was selected last; None where it was none, or is hidden."""
         active = self.number_bmesh().select_history.active
         if not isinstance(active, bmesh.types.BMVert) or active.hide:
             return None
@@ -114,10 +109,7 @@ class Cage:
         return edge is not None and edge.seam
 
     def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
-        """Return the edges that have a label, in the order of their numbers.
-
-        If edges are given that include all with a label, only these are looked at. After `read`, the mesh can tell which edges have one.
-        """
+        """Return the labelled edges in the order of their numbers. They are looked for `among` some edges, or in what `read` has stored."""
         bm = self.number_bmesh()
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
@@ -127,7 +119,7 @@ class Cage:
             there = {edge.index: edge for pair in among if (edge := _edge(bm, pair)) is not None}
             edges = [there[number] for number in sorted(there)]
         elif was_read:
-            edges = [edges[row] for row in np.flatnonzero(_label_column(self.data)).tolist()]
+            edges = [edges[row] for row in np.flatnonzero(stored_labels(self.data)).tolist()]
         found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -142,10 +134,9 @@ class Cage:
         clear: Iterable[tuple[int, int]] = (),
         labels: Mapping[tuple[int, int], int] = MappingProxyType({}),
     ) -> tuple[int, int]:
-        """Make edges seams, and others no seams, give edges other labels, and change nothing else.
+        """Make edges seams, and others no seams, give edges other labels, and change nothing else. Return how many were changed of both.
 
-        Returns how many were not seams before, and how many of the others were. Raises ValueError where two vertices have no edge between
-        them; then nothing is changed.
+        Raises ValueError where two vertices have no edge between them; then nothing is changed.
         """
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
@@ -181,20 +172,21 @@ class Cage:
         return found
 
 
-def _label_column(data: bpy.types.Mesh) -> NDArray[np.int32]:
+def stored_labels(data: bpy.types.Mesh) -> NDArray[np.int32]:
     """Return the label of each edge, (e,), in what Blender stored last of a mesh; nothing if no edge has any."""
-    shared = data.copy() if data.is_editmode else data  # see `read`
-    try:
+    with copied(data) if data.is_editmode else nullcontext(data) as shared:
         attribute = shared.attributes.get(LABELS)
         return np.empty(0, np.int32) if attribute is None else column(attribute.data, "value", np.int32)
+
+
+@contextmanager
+def copied(data: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+    """Copy a mesh, which itself shows no attributes in edit mode. In newer versions a copy shares the data and costs nothing."""
+    shared = data.copy()
+    try:
+        yield shared
     finally:
-        if shared is not data:
-            bpy.data.meshes.remove(shared)
-
-
-def stored_labels(data: bpy.types.Mesh) -> list[int]:
-    """Return the labels of the edges in what Blender stored last of a mesh, each once."""
-    return [label for label in np.unique(_label_column(data)).tolist() if label]
+        bpy.data.meshes.remove(shared)
 
 
 def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
@@ -202,26 +194,17 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 
 
 def read(obj: bpy.types.Object) -> Arrays:
-    """Read the edit mesh of an object. Raises NothingVisibleError where no edge is visible."""
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
-    # In edit mode the mesh does not show its attributes, but a copy does. It shares the data and costs nothing.
-    shared = None if IS_OLD else obj.data.copy()
-    try:
-        columns, key = _Columns(shared or obj.data), obj.active_shape_key
+    with nullcontext(obj.data) if IS_OLD else copied(obj.data) as shared:
+        columns, key = _Columns(shared), obj.active_shape_key
         # The active shape key is edited and seen, and the mesh holds the basis. Without keys the index is what it was with them.
         is_basis = key is None or obj.active_shape_key_index == 0
         points = columns["points"] if is_basis else column(key.data, "co", np.float32, 3)
         return _arrays(obj, obj.data, columns, points)
-    finally:
-        if shared is not None:
-            bpy.data.meshes.remove(shared)
 
 
 def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
-    """Read the mesh of an object in object mode as it is seen, with its modifiers and shape keys.
-
-    Also returns which vertices were selected in edit mode, (n,). Raises NothingVisibleError where no edge is visible.
-    """
+    """Read the mesh of an object in object mode as it is seen. Also return which vertices were selected in edit mode, (n,)."""
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     data = evaluated.to_mesh()
     try:
@@ -232,7 +215,6 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
 
 
 def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
-    """Return what the library needs of a mesh of an object, whose vertices are at other places where so given."""
     points = points.astype(np.float64)
     edges, visible = columns["edges"], ~columns["hidden edges"]
     seams = edges[visible & columns["seams"]]
@@ -240,26 +222,27 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError(obj)
-    hidden = columns["hidden faces"]
-    triangles, polygons = _cut(data, columns["corners"], points)
+    hidden, corners, count = columns["hidden faces"], columns["corners"], len(data.polygons)
+    sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
+    # Into triangles as Blender does, but into none without area. Reading a million of them from Blender takes most of a second.
+    if sizes.max(initial=0) > 4:
+        data.calc_loop_triangles()
+        polygons = column(data.loop_triangles, "polygon_index", np.int32)
+        triangles = without_flat_triangles(points, column(data.loop_triangles, "vertices", np.int32, 3), polygons)
+    else:
+        triangles, polygons = native.load().cut_polygons(points, corners, sizes)
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
-        partly_hidden = edges[_are_sides(edges, triangles[~visible])]
+        sides = triangles[~visible][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        keys = (np.sort(pairs, axis=1).astype(np.int64) @ [1 << 32, 1] for pairs in (edges, sides))
+        partly_hidden = edges[np.isin(*keys)]
         triangles, polygons = triangles[visible], polygons[visible]
     stretch = visible_stretch(obj.matrix_world)
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
 
 
-def _are_sides(edges: NDArray[np.int32], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """Return which edges, (e, 2), are sides of triangles, (m, 3)."""
-    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    own, other = (np.sort(pairs, axis=1).astype(np.int64) @ [1 << 32, 1] for pairs in (edges, sides))
-    return np.isin(own, other)
-
-
 def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
-    """Return which edges of a mesh, (e,), faces of several materials share."""
     found = np.zeros(len(data.edges), dtype=np.bool_)
     if len(data.materials) > 1:
         edges = column(data.loops, "edge_index", np.int32)
@@ -300,25 +283,7 @@ class _Columns:
         return column(self._data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
 
 
-def _cut(
-    data: bpy.types.Mesh, corners: NDArray[np.int32], points: NDArray[np.float64]
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too.
-
-    Reading a million triangles from Blender takes most of a second. They are read only if a face has more than four corners.
-    """
-    count = len(data.polygons)
-    sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
-    if sizes.size and sizes.max() > 4:
-        data.calc_loop_triangles()
-        polygons = column(data.loop_triangles, "polygon_index", np.int32)
-        triangles = column(data.loop_triangles, "vertices", np.int32, 3)
-        return without_flat_triangles(points, triangles, polygons), polygons
-    return native.load().cut_polygons(points, corners, sizes)
-
-
 def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
-    """Return a property of all items, (n,), or (n, width)."""
     flat = np.empty(len(items) * width, dtype=dtype)
     items.foreach_get(name, flat)
     return flat if width == 1 else flat.reshape(-1, width)
@@ -359,10 +324,7 @@ def restored_after_errors(obj: bpy.types.Object) -> Iterator[None]:
 
 
 def live_unwrap(context: bpy.types.Context) -> None:
-    """Unwrap anew, as Blender's own tools for paths do after seams have changed, where the scene asks for it.
-
-    Blender does that wherever it marks seams: with nothing selected, marking does nothing else. The selection comes back.
-    """
+    """Unwrap anew if the scene asks for it: Blender does so wherever it marks seams, and with nothing selected that does nothing else."""
     if context.tool_settings.use_edge_path_live_unwrap:
         with nothing_selected(context):
             bpy.ops.mesh.mark_seam(clear=False)
@@ -374,7 +336,11 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
     selections = []
     objects = list(context.objects_in_mode_unique_data)
     # A million objects of Python take a second. Blender selects everything at once.
-    is_whole = all(_is_all_selected(obj.data) for obj in objects)
+    meshes = [(bmesh.from_edit_mesh(obj.data), obj.data) for obj in objects]
+    is_whole = all(
+        (len(bm.verts), len(bm.edges), len(bm.faces)) == (data.total_vert_sel, data.total_edge_sel, data.total_face_sel)
+        for bm, data in meshes
+    )
     for obj in objects:
         bm = edit_bmesh(obj.data)
         sequences = () if is_whole else (bm.verts, bm.edges, bm.faces)
@@ -397,12 +363,6 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
                 bm.select_history.add(item)
             bm.faces.active = active
             bmesh.update_edit_mesh(data, loop_triangles=False, destructive=False)
-
-
-def _is_all_selected(data: bpy.types.Mesh) -> bool:
-    bm = bmesh.from_edit_mesh(data)
-    selected = data.total_vert_sel, data.total_edge_sel, data.total_face_sel
-    return selected == (len(bm.verts), len(bm.edges), len(bm.faces))
 
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:

@@ -1,109 +1,100 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a drawing asks of the mesh, done: wires slid onto, and cut into faces.
 
-Each function takes the session of an object and returns the session that goes on: afterwards vertices may have other numbers.
+Each function takes the session of an object and returns the session that goes on: afterwards vertices may have other numbers. A vertex
+slides over its faces: what corners hold and shape keys stay where they are on the surface.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections import defaultdict
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import bmesh
 import numpy as np
+from mathutils import Vector
 
 from ..core.base import native
-from ..core.network.picks import FacePoint
+from ..core.network.picks import FacePoint, undirected
 from ..core.seams.seam_wires import wires_between
+from ..core.seams.slide_plan import SlidFaces
 from ..core.seams.slide_plan import plan as plan_slide
 from ..words.reports import count, not_cut
 from . import cut as mesh_cut
-from . import slide as mesh_slide
 from .cut import CutError
 from .edit_mesh import restored_after_errors
 from .object_session import ObjectSession
+from .registration import IS_OLD
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
+    import bpy
     from seamwire_core import CutCurve, CutPlan
 
     from ..core.network.picks import Edge
     from ..core.network.wires import Wire
     from ..core.offers.surface_loops import TakenCut
+    from ..core.seams.slide_plan import Move
     from ..core.sketch.change import Change
     from ..terms.choices import Finish
     from .cut import Cut
+    from .edit_mesh import Cage
+
+    Value = Vector | float
+
+_SAME = 6
+"""Digits that corners around a vertex have in common where they hang together, as in one island of a UV map."""
 
 
-@dataclass(frozen=True)
-class Finished:
-    """What became of wires across the surface when their chain ended."""
-
-    slid: str = ""  # what was slid
-    cut: Cut | None = None
-    problem: str = ""  # why nothing was cut
-
-    @property
-    def text(self) -> str:
-        """The report; an empty text if nothing was done."""
-        parts = [self.slid] if self.slid else []
-        if self.cut is not None:
-            if self.cut.wires:
-                parts.append(f"{count(self.cut.wires, 'wire')} cut, {count(len(self.cut.edges), 'edge')} marked")
-            parts += not_cut(self.cut.uncut, self.cut.left_out)
-        if self.problem:
-            parts.append(f"not cut: {self.problem}")
-        return ", ".join(parts)
-
-
-def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished]:
+def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, str]:
     """Let the mesh do what a change asks, once it has the wires: finish them.
 
-    The session of the mesh ends if anything is done. Returns the session that goes on, and the counts of everything that was done. After an
-    unexpected error the mesh is restored, with the wires along edges.
+    The session of the mesh ends if anything is done. Returns the session that goes on, and the report, an empty text if nothing was done.
+    After an unexpected error the mesh is restored, with the wires along edges.
     """
-    if not any(map(change.finishes, mesh.session.wires)):
-        return mesh, Finished()
-    with restored_after_errors(mesh.obj):
-        return _apply(mesh, change)
-
-
-def _apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished]:
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
-    drawn = {wire.vertices: wire.finish for wire in wires}
-    finished = Finished()
-    slid = [wire for wire in wires if wire.finish == "SLIDE"]
-    if slid:
-        mesh, moved = move(mesh, slid, "SLIDE")
-        finished = Finished(f"Slide: {count(len(slid), 'wire')}, {count(moved, 'vertex', 'vertices')} moved")
-        wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
-    # Cuts come last, because they renumber.
-    cuts = [wire for wire in wires if wire.cuts]
-    if not cuts:
-        return mesh, finished
-    try:
-        mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True)
-    except CutError as error:
-        return mesh, replace(finished, problem=str(error))
-    return mesh, replace(finished, cut=done)
+    if not wires:
+        return mesh, ""
+    told = []
+    with restored_after_errors(mesh.obj):
+        drawn = {wire.vertices: wire.finish for wire in wires}
+        slid = [wire for wire in wires if wire.finish == "SLIDE"]
+        if slid:
+            mesh, moved = move(mesh, slid, "SLIDE")
+            told.append(f"Slide: {count(len(slid), 'wire')}, {count(moved, 'vertex', 'vertices')} moved")
+            wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
+        # Cuts come last, because they renumber.
+        cuts = [wire for wire in wires if wire.cuts]
+        if cuts:
+            try:
+                mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True)
+            except CutError as error:
+                told.append(f"not cut: {error}")
+            else:
+                if done.wires:
+                    told.append(f"{count(done.wires, 'wire')} cut, {count(len(done.edges), 'edge')} marked")
+                told += not_cut(done.uncut, done.left_out)
+    return mesh, ", ".join(told)
 
 
 def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires, if that is the finish. The mesh has these wires.
-
-    Returns the session that goes on, and the number of moved vertices.
-    """
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. Also return the number of moved vertices."""
     if not wires or finish != "SLIDE":
         return mesh, 0
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}
     vertices = {vertex for chain, _ in courses for vertex in chain}
-    stiff = mesh_slide.stiff_vertices(mesh.cage, vertices, seams)
-    moves = plan_slide(mesh_slide.faces_at(mesh.cage, mesh.arrays, vertices), courses, stiff)
+    verts, arrays = mesh.cage.number_bmesh().verts, mesh.arrays
+    around = (face for vertex in vertices for face in verts[vertex].link_faces if not face.hide)
+    corners = {face.index: [vert.index for vert in face.verts] for face in around}
+    faces = SlidFaces(arrays.points, arrays.triangles, arrays.polygons, corners)
+    moves = plan_slide(faces, courses, stiff_vertices(mesh.cage, vertices, seams))
     if not moves:
         return mesh, 0
-    mesh_slide.carry_out(mesh.obj, mesh.cage, moves)
+    _carry_out(mesh.obj, mesh.cage, moves)
     # The stored wire has the positions of its vertices. It is written again with the same curve.
     after = ObjectSession(mesh.obj)
     curve_of = {wire.vertices: wire.points for wire in wires}
@@ -143,15 +134,9 @@ def cut(
 ) -> tuple[ObjectSession, Cut]:
     """Cut the mesh as `plan_cut` has planned for these wires, and return the session that goes on.
 
-    Wires that are cut become wires along edges, between the seeds of those across the surface. The others stay as they are. Vertices, edges
-    and faces have other numbers then.
-
-    Parameters
-    ----------
-    kept
-        Whether the mesh has these wires already: their snapped edges cease to be seams.
-    crumb
-        The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
+    Wires that are cut become wires along edges, between the seeds of those across the surface. The others stay as they are. If the mesh has
+    these wires already (`kept`), their snapped edges cease to be seams. An island beside the cuts with less than the part `crumb` of the
+    mesh's area becomes part of a larger one.
     """
     taken = mesh.session.offering.cuts.taken(mesh.session.drawn)
     skipped = [number for number, _ in plan.left_out if number < len(wires)]
@@ -171,7 +156,6 @@ def cut(
 
 
 def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
-    """Let closed cuts that were taken before the mesh was changed be bent on it."""
     own = (each.of(mesh.session.drawn) for each in taken)
     mesh.session.offering.cuts.recall(each for each in own if each is not None)
 
@@ -211,3 +195,120 @@ def _curve(wire: Wire, image_of: int | None = None) -> CutCurve:
         for pick, vertex in ((wire.start, wire.vertices[0]), (wire.end, wire.vertices[-1]))
     )
     return native.load().CutCurve(wire.points, start, end, wire.faces, image_of)
+
+
+def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge]) -> set[int]:
+    """Return those of some vertices that must stay: on sharp and creased edges, between materials, on seams other than those given."""
+    bm = cage.number_bmesh()
+    layers = bm.edges.layers
+    crease = layers.crease.active if IS_OLD else layers.float.get("crease_edge")
+
+    def holds(edge: bmesh.types.BMEdge) -> bool:
+        return (
+            not edge.smooth
+            or (crease is not None and edge[crease] > 0.0)
+            or len({face.material_index for face in edge.link_faces}) > 1
+            or (edge.seam and undirected(tuple(vert.index for vert in edge.verts)) not in seams)
+        )
+
+    return {vertex for vertex in vertices if any(map(holds, bm.verts[vertex].link_edges))}
+
+
+def _carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> None:
+    """Move vertices. What corners of faces hold follows as with Blender's own sliding: UVs, colors and other numbers."""
+    bm = cage.number_bmesh()
+    spans = {vertex: ([bm.verts[corner] for corner in move.corners], move.weights) for vertex, move in moves.items()}
+    # All is read before anything is written: neighbors move as well.
+    places = {vertex: _mean([corner.co for corner in corners], weights) for vertex, (corners, weights) in spans.items()}
+    keys = [
+        (layer, {vertex: _mean([corner[layer] for corner in own], weights) for vertex, (own, weights) in spans.items()})
+        for layer in bm.verts.layers.shape.values()
+    ]
+    kinds = ("uv", "color", "float_color", "float", "float_vector")
+    layers = [layer for kind in kinds for layer in getattr(bm.loops.layers, kind).values()]
+    corners = [(layer, list(_of_corners(bm, moves, places, layer))) for layer in layers]
+    follows = _keys_that_follow(obj)
+    for vertex, place in places.items():
+        vert = bm.verts[vertex]
+        offset = place - vert.co
+        for number, (layer, wanted) in enumerate(keys):
+            if number != obj.active_shape_key_index:  # that is `vert.co`
+                vert[layer] = wanted[vertex] - offset if number in follows else wanted[vertex]
+        vert.co = place
+    for layer, values in corners:
+        for corner, value in values:
+            if hasattr(corner[layer], "uv"):
+                corner[layer].uv = value
+            else:
+                corner[layer] = value
+    bm.normal_update()
+    bmesh.update_edit_mesh(cage.data, loop_triangles=True, destructive=False)
+
+
+def _mean(values: Sequence[Value], weights: Sequence[float]) -> Value:
+    first, *rest = (value * weight for value, weight in zip(values, weights, strict=True))
+    for value in rest:
+        first = first + value
+    return first
+
+
+def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
+    """Return the numbers of the shape keys that Blender moves with the edited one: relative to it, in newer versions also indirectly."""
+    keys = obj.data.shape_keys
+    if keys is None or not keys.use_relative:
+        return set()
+    blocks = list(keys.key_blocks)
+    edited = blocks[obj.active_shape_key_index]
+
+    def leads_there(block: bpy.types.ShapeKey) -> bool:
+        passed = []
+        while block not in passed:
+            passed.append(block)
+            block = block.relative_key
+            if block == edited:
+                return True
+            if IS_OLD:
+                break
+        return False
+
+    return {number for number, block in enumerate(blocks) if block != edited and leads_there(block)}
+
+
+def _read(corner: bmesh.types.BMLoop, layer: bmesh.types.BMLayerItem) -> Value:
+    value = getattr(corner[layer], "uv", corner[layer])
+    return value if isinstance(value, float) else Vector(value)
+
+
+def _of_corners(
+    bm: bmesh.types.BMesh, moves: Mapping[int, Move], places: Mapping[int, Vector], layer: bmesh.types.BMLayerItem
+) -> Iterator[tuple[bmesh.types.BMLoop, Value]]:
+    """Yield the corners around vertices that move, and what a layer has there.
+
+    If the layer is continuous with the face that a vertex moves into, the value is interpolated there. Beyond a seam of the layer, each
+    face's values are extrapolated to that place, and connected values are averaged.
+    """
+    for vertex, move in moves.items():
+        inside = {corner.vert.index: _read(corner, layer) for corner in bm.faces[move.polygon].loops}
+        there = _mean([inside[corner] for corner in move.corners], move.weights)
+        groups: dict[tuple[float, ...], list[bmesh.types.BMLoop]] = defaultdict(list)
+        for corner in bm.verts[vertex].link_loops:
+            groups[_rounded(_read(corner, layer))].append(corner)
+        for key, group in groups.items():
+            value = there
+            if key != _rounded(inside[vertex]):
+                beyond = [_continued(corner, places[vertex], layer) for corner in group]
+                value = _mean(beyond, [1.0 / len(beyond)] * len(beyond))
+            for corner in group:
+                yield corner, value
+
+
+def _rounded(value: Value) -> tuple[float, ...]:
+    return tuple(round(part, _SAME) for part in ((value,) if isinstance(value, float) else value))
+
+
+def _continued(corner: bmesh.types.BMLoop, place: Vector, layer: bmesh.types.BMLayerItem) -> Value:
+    three = (corner.link_loop_prev, corner, corner.link_loop_next)
+    a, b, c = (np.array(one.vert.co) for one in three)
+    # The weights whose mean is nearest to the place. Any of them may be negative.
+    (s, t), *_ = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), np.array(place) - a, rcond=None)
+    return _mean([_read(one, layer) for one in three], (1.0 - s - t, s, t))

@@ -32,20 +32,16 @@ def problem_with(obj: object) -> str:
     layer.update()
     # A linked object may have the name of another one.
     if layer.objects.get(name) != obj and obj not in tuple(layer.objects):
-        return f"{name} is not in the view layer {layer.name}: {_whereabouts(obj)}"
+        scenes = [scene.name for scene in obj.users_scene]
+        where = "its collection is excluded. Include the collection in the view layer"
+        if not scenes:
+            where = "it is in no scene. Link it to a collection of the scene"
+        elif bpy.context.scene.name not in scenes:
+            where = f"it is in the scene {scenes[0]}. Switch to that scene"
+        return f"{name} is not in the view layer {layer.name}: {where}"
     if not obj.visible_get():
         return f"{name} cannot be edited: it is hidden. Show it and its collections"
     return ""
-
-
-def _whereabouts(obj: bpy.types.Object) -> str:
-    """Say where an object is that is not in the view layer of the context."""
-    scenes = [scene.name for scene in obj.users_scene]
-    if not scenes:
-        return "it is in no scene. Link it to a collection of the scene"
-    if bpy.context.scene.name not in scenes:
-        return f"it is in the scene {scenes[0]}. Switch to that scene"
-    return "its collection is excluded. Include the collection in the view layer"
 
 
 @contextmanager

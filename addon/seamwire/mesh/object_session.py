@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import functools
 import threading
 import traceback
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import bpy
@@ -28,13 +28,12 @@ from . import edit_mesh
 from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.network.drawn import Drawn
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..core.sketch.change import Change
@@ -43,7 +42,6 @@ if TYPE_CHECKING:
 
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
-    """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
     if len(obj.vertex_groups) or obj.data.shape_keys is not None:
         return PLACED
     is_scan = native.load().has_scanned_edges(arrays.points, arrays.triangles, arrays.polygons)
@@ -76,24 +74,15 @@ def complete_records(*_: object) -> None:
         if obj.type == "MESH" and obj.mode == "EDIT":
             obj.update_from_editmode()  # Blender does so too when it saves
     for data in list(bpy.data.meshes):
-        labels = edit_mesh.stored_labels(data) if data.library is None else ()
-        if not len(labels):
-            continue
+        stored = () if data.library is not None else edit_mesh.stored_labels(data)
+        labels = [label for label in np.unique(stored).astype(np.int64).tolist() if label]
         try:
-            own = Archive.parse(data.seamwire_wires)
+            own = Archive.parse(data.seamwire_wires) if labels else Archive()
         except UnreadableError:
             continue
         unknown = [label for label in labels if not own.knows(label)]
         if any(map(_archive.knows, unknown)) and own.merge(_archive):
             data.seamwire_wires = own.text(labels)
-
-
-def _trimmed_archive() -> Archive:
-    """Return the records of this file, the oldest ones dropped if they take too much memory. Sessions keep what they have."""
-    global _archive
-    if _archive.size > _MOST_RECORDED:
-        _archive = _archive.newest(_MOST_RECORDED // 2)
-    return _archive
 
 
 class ObjectSession:
@@ -173,7 +162,6 @@ class ObjectSession:
         return snapshot(settings, self.cage.data, self.find_auto())
 
     def find_auto(self) -> Auto:
-        """Return the values that Auto stands for here. The first call reads the mesh."""
         if self._auto is None:
             self._auto = auto_for(self.obj, self.arrays)
         return self._auto
@@ -182,7 +170,6 @@ class ObjectSession:
 
     @property
     def places(self) -> Places:
-        """Where the vertices are."""
         return Places(self.arrays.points, self.arrays.to_object)
 
     def alive(self) -> bool:
@@ -242,7 +229,6 @@ class ObjectSession:
         return self._labels.same_as(known) and np.array_equal(before, now)
 
     def _has_same_numbers(self) -> bool:
-        """Return whether what is drawn finds its vertices where they were, in a mesh with more or fewer vertices."""
         network = self.session.drawn
         of_wires = (vertex for wire in network.wires for edge in wire.claims() for vertex in edge)
         of_strokes = (vertex for stroke in network.strokes for vertex in stroke.corners.reshape(-1).tolist())
@@ -254,7 +240,6 @@ class ObjectSession:
         return bool(np.abs(moved).max(initial=0.0) <= self.places.tolerance)
 
     def _adopt(self, labels: EdgeLabels, seams: NDArray[np.int32]) -> None:
-        """Go on with the network that labels tell of, and the seams of the mesh."""
         self._learn(labels)
         self._labels = labels
         self._found = Found() if self._newer else wire_labels.read(labels, self._archive, self.places)
@@ -272,12 +257,15 @@ class ObjectSession:
 
     def _learn(self, labels: EdgeLabels) -> None:
         """Take in the records of the mesh and, where labels came from another one, those of all meshes in the file."""
+        global _archive
         self._newer = self._damaged = False
         try:
             own = Archive.parse(self.cage.data.seamwire_wires)
+            # The oldest records of the file go if all take too much memory. Sessions keep what they have.
+            if _archive.size > _MOST_RECORDED:
+                _archive = _archive.newest(_MOST_RECORDED // 2)
             # If numbers of the mesh stand for something else in this Blender, the mesh gets a separate archive.
-            archive = _trimmed_archive()
-            self._archive = archive if archive.merge(own) else own
+            self._archive = _archive if _archive.merge(own) else own
         except serialization.NewerError as error:
             self._newer = True
             self.notices.add("WARNING", str(error))
@@ -349,19 +337,15 @@ class ObjectSession:
         return written
 
     def adopt(self, plan: wire_labels.Plan) -> None:
-        """Let the session go on with the network that was written."""
         self.session.adopt(plan.network, self.plain_seams)
         _taken_cuts.keep(self.session.offering.cuts.taken(self.session.drawn), self.session.drawn, self.places)
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
         session = self.session
-        drawn = (*session.wires, *wires)
-        strokes = (
-            *session.drawn.strokes,
-            *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes),
-        )
-        session.adopt(replace(session.drawn, wires=drawn, strokes=strokes), self.plain_seams)
+        new = (on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes)
+        drawn = replace(session.drawn, wires=(*session.wires, *wires), strokes=(*session.drawn.strokes, *new))
+        session.adopt(drawn, self.plain_seams)
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
@@ -373,28 +357,19 @@ class ObjectSession:
         session.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.drawn)
 
-    def finder(self) -> Callable[[Sequence[float]], FacePoint]:
-        """Return what finds the point of the visible surface that is nearest to a place in object coordinates.
+    @cached_property
+    def _tree(self) -> seamwire_core.NearestPoints:
+        return native.load().NearestPoints(self.arrays.in_object, self.arrays.triangles)
 
-        The function raises ValueError if no face is visible, or the place is too far away to be compared with them.
+    def point_at(self, place: Sequence[float]) -> FacePoint:
+        """Return the point of the visible surface that is nearest to a place in object coordinates.
+
+        Raises ValueError if no face is visible, or the place is too far away to be compared with them.
         """
-        triangles, in_object = self.arrays.triangles, self.arrays.in_object
-
-        @functools.cache
-        def tree() -> seamwire_core.NearestPoints:
-            return native.load().NearestPoints(in_object, triangles)
-
-        def find(place: Sequence[float]) -> FacePoint:
-            if not len(triangles):
-                raise ValueError("No face is visible: give vertices or edges instead of places")
-            # In single precision, as Blender has places, larger ones have no distance.
-            if not np.abs(np.array(place)).max() < 1e18:
-                raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
-            (row,), (found,), _ = tree().find([place])
-            return FacePoint.at(found, row, triangles, in_object)
-
-        return find
-
-    def drop_changes(self, network: Drawn) -> None:
-        """Go back to a network that the session had, whatever was drawn since."""
-        self.session.adopt(network, self.plain_seams)
+        if not len(self.arrays.triangles):
+            raise ValueError("No face is visible: give vertices or edges instead of places")
+        # In single precision, as Blender has places, larger ones have no distance.
+        if not np.abs(np.array(place)).max() < 1e18:
+            raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
+        (row,), (found,), _ = self._tree.find([place])
+        return FacePoint.at(found, row, self.arrays.triangles, self.arrays.in_object)

@@ -31,6 +31,7 @@ class Pose:
 
     def __init__(self, arrays: Arrays) -> None:
         self._arrays = arrays
+        # Curves, (k, 3), with the triangle nearest to each point, (k,), and its barycentric coordinates, (k, 3).
         self._found: dict[int, tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]] = {}
         self.points: NDArray[np.float64] = arrays.points
         self.is_bent = False
@@ -46,11 +47,19 @@ class Pose:
         return True
 
     def places(self, curve: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return where the points of a curve on the surface, (k, 3), are seen."""
-        if not self.is_bent or not len(curve) or not len(self._arrays.triangles):
+        rest, corners = self._arrays.points, self._arrays.triangles
+        if not self.is_bent or not len(curve) or not len(corners):
             return curve
-        _, triangles, weights = self._on_surface(curve)
-        return np.einsum("kc,kcx->kx", weights, self.points[self._arrays.triangles[triangles]])
+        # The curve itself is held: its number alone could come again.
+        if id(curve) not in self._found:
+            if len(self._found) >= _MOST_CURVES:
+                self._found.clear()
+            rows, _, _ = self._tree.find(curve)
+            weights, off = barycentric(rest[corners[rows]], curve)
+            weights[~np.isfinite(off)] = 1.0 / 3.0
+            self._found[id(curve)] = curve, rows, weights
+        _, rows, weights = self._found[id(curve)]
+        return np.einsum("kc,kcx->kx", weights, self.points[corners[rows]])
 
     def at_rest(self, place: NDArray[np.float64], triangle: int) -> NDArray[np.float64]:
         """Return where a point, (3,), that is seen in a triangle is on the mesh without modifiers."""
@@ -63,21 +72,6 @@ class Pose:
     @cached_property
     def _tree(self) -> NearestPoints:
         return native.load().NearestPoints(self._arrays.points, self._arrays.triangles)
-
-    def _on_surface(
-        self, curve: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
-        """Return a curve, the triangle nearest to each of its points, (k,), and their barycentric coordinates, (k, 3)."""
-        # The curve itself is held: its number alone could come again.
-        if id(curve) not in self._found:
-            if len(self._found) >= _MOST_CURVES:
-                self._found.clear()
-            rest, corners = self._arrays.points, self._arrays.triangles
-            rows, _, _ = self._tree.find(curve)
-            weights, off = barycentric(rest[corners[rows]], curve)
-            weights[~np.isfinite(off)] = 1.0 / 3.0
-            self._found[id(curve)] = curve, rows, weights
-        return self._found[id(curve)]
 
 
 def _depsgraph_of(obj: bpy.types.Object) -> bpy.types.Depsgraph:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registers several things with Blender: all of them, or nothing if one fails; and timers."""
+"""The versions of Blender that are supported, 3.4, as Debian 12 has it, and 4.2 to 5.x, and what registers things with Blender."""
 
 from __future__ import annotations
 
@@ -13,6 +13,19 @@ if TYPE_CHECKING:
 
     Change = tuple[Callable[[], object], Callable[[], object]]
     """A function, and the function that takes back what the first has done."""
+
+OLD = (3, 4)
+"""The only supported version before `NEW`."""
+NEW = (4, 2)
+"""The oldest supported version that has extensions."""
+IS_OLD = bpy.app.version[:2] < NEW
+"""Whether this Blender is `OLD`. Where the two differ only in the name or the presence of a property, code asks for the property."""
+
+
+def check_version(version: tuple[int, ...] = bpy.app.version) -> None:
+    if version[:2] != OLD and version[:2] < NEW:
+        found, old, new = ("{}.{}".format(*number[:2]) for number in (version, OLD, NEW))
+        raise RuntimeError(f"Seamwire does not run in Blender {found}: use Blender {old}, or {new} or newer")
 
 
 def together(*changes: Change) -> tuple[Callable[[], None], Callable[[], None]]:

@@ -8,6 +8,7 @@ thread, and raise `seamwire_core.Cancelled` where it returns False.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,32 +17,18 @@ import numpy as np
 from mathutils import Vector
 
 from ..core.base import native
-from ..core.base.geometry import triangle_areas
-from ..core.islands.map_faults import NO_FAULTS, MappedSurface
-from ..core.islands.square_use import MapInScene, square_use
+from ..core.base.geometry import length_of, triangle_areas
+from ..core.islands.uv_maps import NO_FAULTS, MappedSurface, square_use
 from ..core.network.picks import undirected
-from ..core.seams.seam_plan import (
-    CRUMB,
-    PartChoice,
-    PartEdits,
-    border_wires,
-    curves_length,
-    cut_edges,
-    edges_of,
-    energy_of,
-    keep_out,
-    mean_stretch,
-    planned_wires,
-    stretch_of,
-    stroke_weights,
-)
+from ..core.seams import seam_plan
+from ..core.seams.seam_plan import PartChoice, PartEdits
 from ..terms.choices import FINISHES
 from ..terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..words.reports import ALL_HIDDEN, Notices, Outcome
-from . import edit_mesh, finishes, uv_map
+from . import edit_mesh, finishes
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import count_islands, in_scene, labels_of, maps_of, to_scene
 from .unwrap import MARGIN, STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
+from .uv_islands import aspect, count_islands, labels_of, maps_of, to_scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -50,14 +37,13 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.islands.square_use import SquareUse
+    from ..core.islands.uv_maps import SquareUse
     from ..core.network.wires import Wire
     from ..terms.choices import Along, Finish, PartsBy
 
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""
 _Asked = tuple["PartsBy", float, PartEdits]
-_NO_EDITS = PartEdits()
 _LEAST_ISLAND = 0.003
 """The fraction of the area of a figure below which no island is wanted."""
 _CUT_CRUMB = 0.25
@@ -72,8 +58,6 @@ _MEASURING = 0.1
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Requirements for the wires and the seams."""
-
     along: Along | None  # None: as is best for the mesh
     finish: Finish | None  # None: as is best for the mesh
     symmetric: bool  # whether wires come in pairs where the mesh is symmetric
@@ -100,8 +84,20 @@ class Suggestion:
         self.along: Along = options.along or self.mesh.find_auto().along
         self.finish: Finish = options.finish or self.mesh.find_auto().finish
         self._symmetric = options.symmetric
-        self._front = None if options.front is None else self._in_object(options.front)
-        self._within, self.others = self._islands_with(faces)
+        # The direction to the viewer in object coordinates. None also if the object is flattened.
+        self._front: tuple[float, float, float] | None = None
+        if options.front is not None:
+            with suppress(ValueError):
+                front = obj.matrix_world.to_3x3().inverted() @ Vector(options.front)
+                self._front = tuple(front.normalized()) if front.length > 0.0 else None
+        self._within: NDArray[np.bool_] | None = None  # (m,) the triangles of the islands to cut; None: all
+        self.others = 0  # the number of other islands
+        if faces is not None:
+            labels = labels_of(arrays)
+            planned = np.unique(labels[np.isin(arrays.polygons, faces)])
+            if not len(planned):
+                raise ValueError("No face is selected")
+            self._within, self.others = np.isin(labels, planned), int(labels.max()) + 1 - len(planned)
         self._finders: dict[PartsBy, seamwire_core.PartFinder] = {}
         self._found: dict[_Asked, seamwire_core.Parts] = {}  # the last ones at the end
         self._by: PartsBy = "AUTO"  # of the chosen parts
@@ -115,75 +111,51 @@ class Suggestion:
         self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
         self.slits: list[Wire] = []  # the wires of this plan
         self._bound = 0.0  # on the energy of plans
-        # The plan that was laid out last, its map, and the island of each triangle there.
-        self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None, NDArray[np.int32] | None]
-        self.laid_out = None, None, None
-        self._laid_out_energy: tuple[seamwire_core.SeamPlan | None, float] = None, 0.0
+        # The plan that was laid out last, its map, the island of each triangle there, and its energy.
+        self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None, NDArray[np.int32] | None, float]
+        self.laid_out = None, None, None, 0.0
         self.marked = 0  # how many edges `write` made seams
 
-    def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
-        """Return which triangles are of the islands that have some of these faces, (m,), and the number of other islands."""
-        if faces is None:
-            return None, 0
-        arrays = self.mesh.arrays
-        labels = labels_of(arrays)
-        planned = np.unique(labels[np.isin(arrays.polygons, faces)])
-        if not len(planned):
-            raise ValueError("No face is selected")
-        return np.isin(labels, planned), int(labels.max()) + 1 - len(planned)
-
-    def _in_object(self, direction: Sequence[float]) -> tuple[float, float, float] | None:
-        """Return a direction in the scene's coordinates as one of length 1 in object coordinates; None if the object is flattened."""
-        try:
-            found = self.mesh.obj.matrix_world.to_3x3().inverted() @ Vector(direction)
-        except ValueError:
-            return None
-        return tuple(found.normalized()) if found.length > 0.0 else None
-
     def measure(self, by: PartsBy, progress: Progress) -> seamwire_core.PartFinder:
-        """Measure the mesh for parts, once for each `by`. Return what finds them."""
-        known = self._finders.get(by)
-        if known is not None:
-            return known
-        arrays = self.mesh.arrays
-        self._finders[by] = self._core.PartFinder(
-            arrays.surface,
-            by="shape" if by == "AUTO" else by.lower(),
-            scan=self.along == "SURFACE",
-            front=self._front,
-            mirror=self._axis,
-            marked=arrays.marked,
-            seams=arrays.seams,
-            progress=progress,
-        )
+        if by not in self._finders:
+            arrays = self.mesh.arrays
+            self._finders[by] = self._core.PartFinder(
+                arrays.surface,
+                by="shape" if by == "AUTO" else by.lower(),
+                scan=self.along == "SURFACE",
+                front=self._front,
+                mirror=self._axis,
+                marked=arrays.marked,
+                seams=arrays.seams,
+                progress=progress,
+            )
         return self._finders[by]
 
     @property
     def automatic(self) -> PartsBy | None:
-        """What *Auto* has found to separate the parts; None if it was not asked."""
-        found = self._finders.get("AUTO")
-        return None if found is None else found.by.upper()
+        return self._finders["AUTO"].by.upper() if "AUTO" in self._finders else None
 
     def count(self, choice: PartChoice, progress: Progress) -> int:
         return self._counted(self._parts_of(choice, progress))
 
+    def _counted(self, parts: seamwire_core.Parts) -> int:
+        """Return the number of parts. An island that is not to be cut is one part."""
+        return parts.count if self._within is None else len(np.unique(parts.of_face[self._within])) + self.others
+
     def choose(self, choice: PartChoice, progress: Progress) -> None:
-        """Find the parts of a choice, and take them. A plan for other parts is dropped."""
         found = self._parts_of(choice, progress)
-        self._by = choice.by
-        self.part_count = self._counted(found)
+        self._by, self.part_count = choice.by, self._counted(found)
         self.borders = [np.asarray(chain) for chain in found.borders]
         if self._within is not None:  # islands that are not to be cut keep no borders
             corners = self.mesh.arrays.triangles[self._within].tolist()
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
-            self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
+            self.borders = [chain for chain in self.borders if seam_plan.edges_of(chain) <= inside]
         self._planner = self.best = None
-        self.laid_out = None, None, None
+        self.laid_out = None, None, None, 0.0
         self.slits = []
 
     def _parts_of(self, choice: PartChoice, progress: Progress) -> seamwire_core.Parts:
-        """Find the parts of a choice, or take them from those that are kept."""
-        edits = choice.edits.get(self.name, _NO_EDITS)
+        edits = choice.edits.get(self.name, PartEdits())
         asked = choice.by, choice.amount, edits
         found = self._found.pop(asked, None)
         if found is None:
@@ -196,15 +168,8 @@ class Suggestion:
             del self._found[next(iter(self._found))]
         return found
 
-    def _counted(self, parts: seamwire_core.Parts) -> int:
-        """Return the number of parts. An island that is not to be cut is one part."""
-        if self._within is None:
-            return parts.count
-        return len(np.unique(parts.of_face[self._within])) + self.others
-
     @property
     def seams(self) -> NDArray[np.int32]:
-        """The edges, (k, 2), that are seams, or borders between the chosen parts."""
         chains = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in self.borders]
         return np.concatenate([self.mesh.arrays.seams, *chains]).astype(np.int32)
 
@@ -214,8 +179,7 @@ class Suggestion:
         if not self._symmetric:
             return None
         symmetric = self.mesh.session.symmetry.symmetric_axes
-        preferred = [axis for axis in self._blenders_mirrors if axis in symmetric]
-        axis = next(iter((*preferred, *symmetric)), None)
+        axis = min(symmetric, key=lambda axis: axis not in self._blenders_mirrors, default=None)
         if axis is None or self._within is None:
             return axis
         # Planned islands that are not symmetric themselves have no pairs.
@@ -226,12 +190,13 @@ class Suggestion:
         return axis if has_image.all() and planned[images[planned]].all() else None
 
     def _weights(self) -> NDArray[np.float64] | None:
-        """Return what the cost of wires is multiplied with at each vertex; None: by nothing."""
         arrays, strokes = self.mesh.arrays, self.mesh.session.network.strokes
         if self._within is None and not strokes:
             return None
-        weights = stroke_weights(arrays.points, arrays.edges, strokes)
-        return weights if self._within is None else weights * keep_out(arrays.triangles, self._within, len(weights))
+        weights = seam_plan.stroke_weights(arrays.points, arrays.edges, strokes)
+        if self._within is not None:
+            weights *= seam_plan.keep_out(arrays.triangles, self._within, len(weights))
+        return weights
 
     def plan(self, energy: float, islands: int, progress: Progress, is_enough: Callable[[], bool]) -> None:
         """Find wires in the chosen parts, better and better ones.
@@ -267,7 +232,8 @@ class Suggestion:
             return  # the plan is for other parts
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
         self.straight_cost = self._straight_cost_of(found)
-        self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
+        self.best = found
+        self.slits = seam_plan.planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     def layout_of(self, plan: seamwire_core.SeamPlan, progress: Progress) -> NDArray[np.float64] | None:
         """Return how the islands of a plan will lie in the UV map, (m, 3, 2) in the object's units.
@@ -286,16 +252,13 @@ class Suggestion:
                 edges=arrays.edges,
                 progress=progress,
             )
-            uvs, islands = np.asarray(found.uvs), np.asarray(found.islands)
-            self._laid_out_energy = plan, float(found.energy)
+            self.laid_out = plan, np.asarray(found.uvs), np.asarray(found.islands), float(found.energy)
         except ValueError:
-            uvs, islands = plan.uvs, plan.islands
-        self.laid_out = plan, uvs, islands
-        return uvs
+            self.laid_out = plan, plan.uvs, plan.islands, float(plan.energy)
+        return self.laid_out[1]
 
     def energy_of(self, plan: seamwire_core.SeamPlan) -> float:
-        """Return the energy of the map of a plan: the one that `layout_of` has made, or else the planned one."""
-        laid_out, energy = self._laid_out_energy
+        laid_out, _, _, energy = self.laid_out
         return energy if laid_out is plan else float(plan.energy)
 
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
@@ -303,41 +266,42 @@ class Suggestion:
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
-        """The best plan so far with a map of every part of the mesh, also while `plan` runs. Any thread may read it."""
+        """The best plan so far with a map of every part and, unless the search has ended, with seams. Any thread may read it."""
         planner = self._planner
         return None if planner is None else self._useful(planner.best_so_far)
 
     def _useful(self, plan: seamwire_core.SeamPlan | None) -> seamwire_core.SeamPlan | None:
-        """Return a plan if it has a map of every part of the mesh, and seams unless the search has ended with it, otherwise None."""
         if plan is None or not np.isfinite(plan.energy):
             return None
         return plan if plan.wires or self.borders or plan is self.best else None
 
     @property
+    def _border_wires(self) -> list[Wire]:
+        return seam_plan.border_wires(self.borders, self.mesh.arrays.points)
+
+    @property
     def wires(self) -> list[Wire]:
-        return [*border_wires(self.borders, self.mesh.arrays.points), *self.slits]
+        return [*self._border_wires, *self.slits]
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
         is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
         if self.best is None or not is_same:
             return None
-        plan, layout, _ = self.laid_out
+        plan, layout, *_ = self.laid_out
         return layout if plan is self.best and layout is not None else self.best.uvs
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
         """Return the length of the borders and the wires of a plan, in the scene's units."""
-        points = self.mesh.arrays.in_object
+        points, scene = self.mesh.arrays.in_object, to_scene(self.mesh.obj)
         curves = [*(points[chain] for chain in self.borders), *(wire.points for wire in plan.wires)]
-        return curves_length(curves, to_scene(self.mesh.obj))
+        return sum(length_of(curve @ scene.T) for curve in curves)
 
     def edges_of(self, plan: seamwire_core.SeamPlan) -> NDArray[np.int32]:
-        """Return the edges, (k, 2), that cut the mesh into the islands of a plan."""
-        return cut_edges(plan, self.seams)
+        return seam_plan.cut_edges(plan, self.seams)
 
     @cached_property
     def area(self) -> float:
-        """The area of the visible surface, in the object's units squared."""
         return float(self._areas.sum())
 
     @cached_property
@@ -350,8 +314,8 @@ class Suggestion:
         if self._finders[self._by].by == "limbs":
             return _LEAST_ISLAND
         areas = np.bincount(self.best.islands, self._areas)
-        areas = areas[areas > 0.0]
-        return _CUT_CRUMB * (min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB)
+        smallest = (areas[areas > 0.0] / areas.sum()).min(initial=seam_plan.CRUMB)
+        return _CUT_CRUMB * float(smallest)
 
     @property
     def cuts(self) -> bool:
@@ -359,7 +323,7 @@ class Suggestion:
 
     def write(self) -> None:
         """Keep the wires with the mesh, and finish them. Only borders are kept if the others are to be cut."""
-        self.mesh.add(border_wires(self.borders, self.mesh.arrays.points) if self.cuts else self.wires)
+        self.mesh.add(self._border_wires if self.cuts else self.wires)
         marked, _ = self.mesh.write(self.mesh.plan())
         self.marked += marked
         if self.along == "SURFACE":
@@ -382,12 +346,9 @@ class SeamSearch:
                 suggestion = Suggestion(obj, options, faces)
                 if not len(suggestion.mesh.arrays.triangles):
                     raise edit_mesh.NothingVisibleError(obj)
-            except edit_mesh.NothingVisibleError as error:
-                self.problem = str(error)
-                hidden.append(self.problem)
-                continue
             except ValueError as error:
                 self.problem = str(error)
+                hidden += [self.problem] if isinstance(error, edit_mesh.NothingVisibleError) else []
                 continue
             for notice in suggestion.mesh.notices.take():
                 self.notices.add(*notice)
@@ -409,7 +370,6 @@ class SeamSearch:
         return sum(suggestion.count(choice, share) for suggestion, share in self._shares(progress))
 
     def choose(self, choice: PartChoice, progress: Progress = lambda _: True) -> None:
-        """Take the parts of a choice. Parts that were counted lately are not searched again."""
         for suggestion, share in self._shares(progress):
             suggestion.choose(choice, share)
 
@@ -418,13 +378,12 @@ class SeamSearch:
         self._options = replace(self._options, stretch=stretch, islands=islands)
 
     def used(self) -> SquareUse | None:
-        """Return how the maps that `layout_of` found last use the UV square together, packed as unwrapping packs them.
+        """Return how the maps that `layout_of` found last use the UV square, packed as unwrapping packs them. Any thread may call it.
 
-        It is None if a map is missing, or if unwrapping leaves islands in place. Any thread may call it.
+        It is None if a map is missing, or if unwrapping leaves islands in place.
         """
-        laid_out = [suggestion.laid_out[1:] for suggestion in self]
-        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
-        if not is_first or any(uvs is None for uvs, _ in laid_out):
+        laid_out = [suggestion.laid_out[1:3] for suggestion in self]
+        if not self._is_first or any(uvs is None for uvs, _ in laid_out):
             return None
         starts = np.cumsum([0, *(int(islands.max(initial=-1)) + 1 for _, islands in laid_out)])
         labels = [islands + start for (_, islands), start in zip(laid_out, starts, strict=False)]
@@ -434,10 +393,13 @@ class SeamSearch:
         ends = np.cumsum([len(own) for own in labels])[:-1]
         maps = []
         for suggestion, (_, islands), own in zip(self, laid_out, np.split(packed, ends), strict=True):
-            arrays = suggestion.mesh.arrays
-            surface = MappedSurface(arrays.in_object, arrays.triangles, islands, own, arrays.edges)
-            maps.append(MapInScene(suggestion.name, surface, suggestion.to_scene))
+            arrays, scene = suggestion.mesh.arrays, (suggestion.name, suggestion.to_scene)
+            maps.append(MappedSurface(arrays.in_object, arrays.triangles, islands, own, arrays.edges, *scene))
         return square_use(maps)
+
+    @property
+    def _is_first(self) -> bool:
+        return not any(suggestion.had_seams or suggestion.others for suggestion in self)
 
     @property
     def part_count(self) -> int:
@@ -449,7 +411,7 @@ class SeamSearch:
 
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Plan wires in the chosen parts of all meshes, until it `is_enough`, but wait for the first plan of each mesh."""
-        energy = energy_of(0.01 * self._options.stretch)
+        energy = seam_plan.energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
             suggestion.plan(energy, self._options.islands, share, is_enough)
 
@@ -468,7 +430,6 @@ class SeamSearch:
 
     @property
     def crumb(self) -> float:
-        """The fraction of a mesh's area below which islands beside cuts are merged."""
         crumbs = (suggestion.crumb() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return min(crumbs, default=0.0)
 
@@ -491,9 +452,8 @@ class SeamSearch:
             edit_mesh.live_unwrap(context)
             return 0
         starts = {suggestion.mesh.obj: uvs for suggestion in self if (uvs := suggestion.map()) is not None}
-        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
         is_whole = {suggestion.mesh.obj for suggestion in self} >= set(context.objects_in_mode_unique_data)
-        every = is_first and is_whole and self.has_wires
+        every = self._is_first and is_whole and self.has_wires
         layout = Layout(straight_cost=min(suggestion.straight_cost for suggestion in self))
         self._unwrapped = unwrap_changed(context, every=every, starts=starts, layout=layout)
         return self._unwrapped.islands
@@ -503,27 +463,25 @@ class SeamSearch:
         options, done = self._options, self._unwrapped
         counts = [count_islands(suggestion.mesh.obj) for suggestion in self]
         is_few = any(own - suggestion.others < options.islands for own, suggestion in zip(counts, self, strict=True))
-        maps, used = self._maps()
+        # The energy of each map, with the area of its surface, and how the maps in the meshes use the UV square. Without a new unwrapping,
+        # the maps on the meshes are those from before.
+        maps, used = [], None
+        if not options.unwraps:
+            maps = [(float(suggestion.best.energy), suggestion.area) for suggestion in self]
+        elif done is not None:
+            surfaces = maps_of(each.mesh.obj for each in self)
+            maps = [(found.energy(aspect(obj)), found.area) for obj, found in surfaces.items()]
+            used = square_use([*surfaces.values()]) if surfaces else None
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
             islands=sum(counts),
             exposed=sum(suggestion.best.exposed_wires for suggestion in self if suggestion.best is not None),
             islands_wanted=options.islands if is_few else 0,
-            stretch=100.0 * mean_stretch(*zip(*maps, strict=True)) if maps else None,
-            stretches=[100.0 * stretch_of(energy) for energy, _ in maps],
+            stretch=100.0 * seam_plan.mean_stretch(*zip(*maps, strict=True)) if maps else None,
+            stretches=[100.0 * seam_plan.stretch_of(energy) for energy, _ in maps],
             stretch_wanted=options.stretch,
             used=used,
             unwrapped=None if done is None else done.islands,
             faults=NO_FAULTS if done is None else done.faults,
         )
-
-    def _maps(self) -> tuple[list[tuple[float, float]], SquareUse | None]:
-        """Return the energy of each map, with the area of its surface, and how the maps in the meshes use the UV square."""
-        if not self._options.unwraps:
-            return [(float(suggestion.best.energy), suggestion.area) for suggestion in self], None
-        if self._unwrapped is None:  # the maps on the meshes are those from before
-            return [], None
-        maps = maps_of(each.mesh.obj for each in self)
-        energies = [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
-        return energies, square_use(in_scene(maps)) if maps else None

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 
 def redraw_views() -> None:
-    """Let all 3D views be drawn anew."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -35,7 +34,6 @@ listeners: list[Callable[[], None]] = []
 
 
 def tell_listeners() -> None:
-    """Let the drawing follow the settings, and draw all 3D views anew."""
     for listener in tuple(listeners):
         listener()
     redraw_views()

@@ -15,7 +15,7 @@ import zlib
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import bmesh
 import bpy
@@ -23,14 +23,12 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import triangle_areas
-from ..core.islands.map_faults import NO_FAULTS, MapFaults
-from ..core.islands.uv_islands import uv_areas
+from ..core.islands.uv_maps import NO_FAULTS, MapFaults, uv_areas
 from ..words.reports import ALL_HIDDEN
-from . import edit_mesh, uv_map
-from .seam_islands import labels_of
+from . import edit_mesh, uv_islands
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -61,8 +59,6 @@ class Unwrapped:
 
 @dataclass(frozen=True)
 class Layout:
-    """How the islands of the method ``SEAMWIRE`` are laid out."""
-
     straight: bool = True  # strips and rectangles of quads lie along the axes, if that hardly stretches them
     upright: bool = True  # islands that are packed stand upright or are turned by quarters, otherwise in any direction
     stack: bool = False  # islands of the same shape, mirrored or not, lie on each other
@@ -71,15 +67,8 @@ class Layout:
 
 Solved: TypeAlias = "tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]"
 """The corners of unwrapped islands, ascending, their places on the image that the UVs lie on, in any unit, and the island of each."""
-
-
-class _ToPlace(NamedTuple):
-    """Triangles of islands that need a place: copies and islands with pins need none."""
-
-    triangles: NDArray[np.int64]  # (t, 3) rows of the islands' corners
-    before: NDArray[np.float64]  # (c, 2) all corners in the old map
-    areas: NDArray[np.float64]  # (t,) the wanted areas in the map
-    straight: NDArray[np.bool_]  # (t,)
+_Copy: TypeAlias = "tuple[_Map, NDArray[np.int32], _Map, NDArray[np.int32]]"
+"""An island that lies on another one: its map and its corners, and the other map and the corners below."""
 
 
 class _Map:
@@ -91,15 +80,16 @@ class _Map:
     def __init__(self, obj: bpy.types.Object, every: bool, by_library: bool) -> None:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
-        self.aspect = uv_map.aspect(obj)
-        with uv_map.copied(obj) as data:
-            self.corners, self._uvs, pinned = uv_map.corners_of(data), uv_map.uvs_of(data), uv_map.pinned_of(data)
+        self.aspect = uv_islands.aspect(obj)
+        with edit_mesh.copied(obj.data) as data:  # `read` has updated it
+            self.corners, self._uvs = uv_islands.corners_of(data), uv_islands.uvs_of(data)
+            pinned = uv_islands.pinned_of(data)
             self._seams = edit_mesh.column(data.edges, "use_seam", np.bool_)
             layer = data.attributes.get(UNWRAPPED)
-            is_known = layer is not None and len(layer.data) == len(self._seams)
-            none = np.zeros(len(self._seams), dtype=np.int32)
-            self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else none
-        labels = labels_of(arrays)
+            self._known = np.zeros(len(self._seams), dtype=np.int32)
+            if layer is not None and len(layer.data) == len(self._seams):
+                self._known = edit_mesh.column(layer.data, "value", np.int32)
+        labels = uv_islands.labels_of(arrays)
         self.count = int(labels.max(initial=-1)) + 1
         self._of_face = np.full(len(self.corners.sizes), -1, dtype=np.int32)
         self._of_face[arrays.polygons] = labels
@@ -111,12 +101,17 @@ class _Map:
         columns = (self.corners.vertices, self.corners.edges, self.corners.sizes, triangles, self._of_face, self._seams)
         self.mesh = native.load().UnwrapMesh(arrays.in_object, *columns)
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
-        changed = self._find_changed()
+        changed, self._densities = np.ones(self.count, dtype=bool), np.zeros(self.count)
+        if self._uvs is not None:
+            plain, seam = self._signs()
+            memory = np.select([self._known == plain, self._known == seam, self._known == JOINED], [1, 2, 3])
+            changed, self._densities = self.mesh.changes(self._uvs, memory)
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         self.with_pins = np.intersect1d(self.changed, self._labels[pinned[self._triangles].any(axis=1)])
-        self.flat = np.setdiff1d(self.changed, self.with_pins) if by_library else self.changed[:0]
+        self._unpinned = np.setdiff1d(self.changed, self.with_pins)
+        self.flat = self._unpinned if by_library else self.changed[:0]
         self._are_straight = np.zeros(self.count, dtype=bool)
-        self.stacked = np.empty(0, dtype=np.int64)
+        self.stacked: list[int] = []  # the islands that lie on others
 
     @property
     def before(self) -> NDArray[np.float64]:
@@ -134,22 +129,12 @@ class _Map:
         table = np.fromiter(found, dtype=np.int32).reshape(-1, 4)
         return self.corners.of_triangles(replace(self._arrays, triangles=table[:, 1:], polygons=table[:, 0]))
 
-    def _find_changed(self) -> NDArray[np.bool_]:
-        self._densities = np.zeros(self.count)
-        if self._uvs is None:
-            return np.ones(self.count, dtype=bool)
-        plain, seam = self._signs(np.array([False, True]))
-        memory = np.select([self._known == plain, self._known == seam, self._known == JOINED], [1, 2, 3])
-        changed, self._densities = self.mesh.changes(self._uvs, memory)
-        return changed
-
-    def _signs(self, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
-        """Return what the layer holds of edges that are seams, or are not."""
-        name = self.obj.data.uv_layers.active.name
-        return 2 * (1 + zlib.crc32(name.encode()) % (1 << 29)) + seams.astype(np.int64)
+    def _signs(self) -> tuple[int, int]:
+        """Return what the layer holds of edges that are no seams, and of seams."""
+        sign = 2 * (1 + zlib.crc32(self.obj.data.uv_layers.active.name.encode()) % (1 << 29))
+        return sign, sign + 1
 
     def faces(self, islands: NDArray[np.integer]) -> NDArray[np.int64]:
-        """Return the faces of some islands."""
         return np.flatnonzero(np.isin(self._of_face, islands))
 
     def flattened(self, start: NDArray[np.float64] | None, layout: Layout) -> Solved:
@@ -171,30 +156,29 @@ class _Map:
         return corners, uvs, parts
 
     def unwrapped(self) -> Solved:
-        """Return the changed islands without pins, as they lie in the UV map that the mesh has."""
-        rows = np.isin(self._labels, np.setdiff1d(self.changed, self.with_pins))
-        corners = np.unique(self._triangles[rows])
-        uvs = uv_map.read_uvs(self.obj)[corners] * (self.aspect, 1.0)
+        corners = np.unique(self._triangles[np.isin(self._labels, self._unpinned)])
+        uvs = uv_islands.read_uvs(self.obj)[corners] * (self.aspect, 1.0)
         return corners, uvs, self._of_face[self.corners.faces[corners]].astype(np.int64)
 
-    def to_place(self, corners: NDArray[np.int64], density: float) -> _ToPlace:
-        """Return what there is to place of unwrapped islands. A texel density is for islands that had none."""
-        rows = np.isin(self._labels, np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)))
+    def to_place(self, corners: NDArray[np.int64], density: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+        """Return what there is to place of unwrapped islands: copies and islands with pins need no place.
+
+        These are triangles as rows of the islands' corners, (t, 3), all corners in the old map, (c, 2), and for each triangle, (t,), its
+        wanted area in the map, and whether its island was laid out straight. A texel density is for islands that had none.
+        """
+        rows = np.isin(self._labels, np.setdiff1d(self._unpinned, self.stacked))
         labels = self._labels[rows]
-        return _ToPlace(
-            np.searchsorted(corners, self._triangles[rows]),
-            self.before[corners],
-            np.where(self._densities > 0.0, self._densities, density)[labels] ** 2 * self._areas[rows],
-            self._are_straight[labels],
-        )
+        areas = np.where(self._densities > 0.0, self._densities, density)[labels] ** 2 * self._areas[rows]
+        triangles = np.searchsorted(corners, self._triangles[rows])
+        return triangles, self.before[corners], areas, self._are_straight[labels]
 
     def taken(self) -> NDArray[np.float64]:
         """Return the bounds in the map of the faces that stay, are hidden, or lie where Blender has put them because of pins, (b, 4)."""
-        rows = ~np.isin(self._of_face[self.corners.faces], np.setdiff1d(self.changed, self.with_pins))
+        rows = ~np.isin(self._of_face[self.corners.faces], self._unpinned)
         starts = np.flatnonzero(np.diff(self.corners.faces[rows], prepend=-1))
         if self._uvs is None or not len(starts):
             return np.empty((0, 4))
-        uvs = uv_map.read_uvs(self.obj)[rows].astype(np.float64)
+        uvs = uv_islands.read_uvs(self.obj)[rows].astype(np.float64)
         return np.concatenate([np.minimum.reduceat(uvs, starts), np.maximum.reduceat(uvs, starts)], axis=1)
 
     def areas(self) -> NDArray[np.float64]:
@@ -203,7 +187,6 @@ class _Map:
         return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
 
     def restore(self) -> None:
-        """Give all corners the UVs that they had."""
         if self._uvs is not None:
             self.write(np.arange(len(self._uvs)), self._uvs.astype(np.float64))
             bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
@@ -213,25 +196,21 @@ class _Map:
         bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.loops.layers.uv.active
         places = dict(zip(corners.tolist(), uvs.tolist(), strict=True))
-        faces, starts = np.unique(self.corners.faces, return_index=True)
-        touched = np.unique(self.corners.faces[corners])
-        begin = starts[np.searchsorted(faces, touched)]
-        for face, first in zip(touched.tolist(), begin.tolist(), strict=True):
-            for number, loop in enumerate(bm.faces[face].loops, start=first):
+        starts = (np.cumsum(self.corners.sizes) - self.corners.sizes).tolist()
+        for face in np.unique(self.corners.faces[corners]).tolist():
+            for number, loop in enumerate(bm.faces[face].loops, start=starts[face]):
                 if number in places:
                     loop[layer].uv = places[number]
 
     def mapped(self) -> tuple[seamwire_core.UnwrapMesh, NDArray[np.int64], NDArray[np.float32]]:
-        """Return the mesh, the changed islands, and the UVs that the mesh has."""
-        return self.mesh, self.changed, uv_map.read_uvs(self.obj)
+        return self.mesh, self.changed, uv_islands.read_uvs(self.obj)
 
     def unmapped(self) -> int:
-        """Return how many hidden faces have no area in the UV map that the mesh has."""
-        return self.mesh.count_unmapped(uv_map.read_uvs(self.obj)) if (self._of_face < 0).any() else 0
+        return self.mesh.count_unmapped(uv_islands.read_uvs(self.obj)) if (self._of_face < 0).any() else 0
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
-        corners, places = self.mesh.turn_back(uv_map.read_uvs(self.obj), np.setdiff1d(self.changed, self.with_pins))
+        corners, places = self.mesh.turn_back(uv_islands.read_uvs(self.obj), self._unpinned)
         self.write(corners, places)
         return len(corners) > 0
 
@@ -239,7 +218,7 @@ class _Map:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
         bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
-        plain, seam = self._signs(np.array([False, True])).tolist()
+        plain, seam = self._signs()
         # New faces may meet at edges that have one face so far.
         visible = self.corners.edges[self._of_face[self.corners.faces] >= 0]
         between = (np.bincount(visible, minlength=len(self._seams)) == 2).tolist()
@@ -247,16 +226,6 @@ class _Map:
             if not edge.hide:
                 edge[layer] = (seam if edge.seam else plain) if between[edge.index] else 0
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
-
-
-class _Copy(NamedTuple):
-    """An island that lies on another one: its map, number and corners, and the other map and the corners below."""
-
-    found: _Map
-    label: int
-    corners: NDArray[np.int32]
-    other: _Map
-    below: NDArray[np.int32]
 
 
 def unwrap_changed(
@@ -267,25 +236,13 @@ def unwrap_changed(
     every: bool = False,
     starts: Mapping[bpy.types.Object, NDArray[np.float64]] = MappingProxyType({}),
 ) -> Unwrapped:
-    """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
+    """Unwrap the islands whose seams have changed, or all, of all objects in edit mode; selections stay.
 
     Where nothing stays, all flattened islands are packed. Else each new island gets the texel density it had, and a place near its old
-    one, see ``seamwire_core.place_islands``; islands with pinned corners stay where Blender's unwrap puts them.
+    one, see ``seamwire_core.place_islands``. Blender unwraps and places islands with pinned corners, or all if it has another `method`.
+    `starts` are maps of some objects to start from, (m, 3, 2), in lengths on the model, for all visible triangles.
 
-    Parameters
-    ----------
-    method
-        ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
-        corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
-    every
-        Whether all islands are unwrapped, changed or not.
-    starts
-        Of some objects a map to start from, (m, 3, 2), in lengths on the model, for all visible triangles.
-
-    Raises
-    ------
-    ValueError, native.NativeError
-        If there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
+    Raises ValueError or NativeError if there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
     """
     maps, problems = [], []
     for obj in context.objects_in_mode_unique_data:
@@ -309,10 +266,10 @@ def unwrap_changed(
                 _unwrap_by_blender(context, maps, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 copies = _find_copies(maps) if layout.stack else []
                 _place(maps, solved, layout)
-                _pile_up(maps, copies)
+                _pile_up(copies)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
-                    _pile_up(maps, copies)
+                    _pile_up(copies)
                     faults = _faults(maps)
             except BaseException:
                 for found in maps:
@@ -332,22 +289,26 @@ def faults_of(obj: bpy.types.Object, *, may_stack: bool = False) -> MapFaults:
 
 
 def _faults(maps: Sequence[_Map]) -> MapFaults:
-    """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
     mapped = [(*found.mapped(), found.before) for found in maps]
     return MapFaults(*native.load().map_faults(mapped, may_stack=any(len(found.stacked) for found in maps)))
 
 
 def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method: str) -> None:
     """Unwrap the changed islands that are not `flat` with a method of Blender, and let it pack them; raises ValueError if it cannot."""
-    islands = {found: np.setdiff1d(found.changed, found.flat) for found in maps}
-    faces = {found: found.faces(labels) for found, labels in islands.items() if len(labels)}
-    if not faces:
+    faces = {found: found.faces(np.setdiff1d(found.changed, found.flat)) for found in maps}
+    if not any(len(numbers) for numbers in faces.values()):
         return
-    with _only_selected(context, faces):
-        try:
-            bpy.ops.uv.unwrap(method=method)
-        except RuntimeError as error:
-            raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
+    with edit_mesh.nothing_selected(context):
+        for found, numbers in faces.items():
+            bm = edit_mesh.edit_bmesh(found.obj.data)
+            for face in numbers.tolist():
+                bm.faces[face].select = True
+        # Not in the UV editor, where its own selection counts.
+        with context.temp_override(area=None, region=None):
+            try:
+                bpy.ops.uv.unwrap(method=method)
+            except RuntimeError as error:
+                raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
 
 
 def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
@@ -366,9 +327,9 @@ def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) 
     places = np.concatenate([own for _, own, _ in solved.values()])
     labels = np.concatenate([own + first for (_, _, own), first in zip(solved.values(), firsts, strict=False)])
     parts = [found.to_place(corners, density) for found, (corners, _, _) in solved.items()]
-    triangles = np.concatenate([own.triangles + start for own, start in zip(parts, starts, strict=False)])
+    triangles = np.concatenate([own[0] + start for own, start in zip(parts, starts, strict=False)])
     numbers, rows, islands = np.unique(labels[triangles[:, 0]], return_index=True, return_inverse=True)
-    aspects = np.repeat([found.aspect for found in solved], [len(own.triangles) for own in parts])[rows]
+    aspects = np.repeat([found.aspect for found in solved], [len(own[0]) for own in parts])[rows]
     placements = np.zeros((firsts[-1], 2, 3))
     if len(taken):
         _, before, areas, straight = (np.concatenate(each) for each in zip(*parts, strict=True))
@@ -388,28 +349,25 @@ def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) 
 
 def _find_copies(maps: Sequence[_Map]) -> list[_Copy]:
     """Find the islands that lie on others, for each width of the image that the UVs lie on."""
-    copies = []
+    copies: list[_Copy] = []
     for aspect in dict.fromkeys(found.aspect for found in maps):
         own = [found for found in maps if found.aspect == aspect]
         for mesh, label, corners, other, below in native.load().island_copies([(each.mesh, each.flat) for each in own]):
-            copies.append(_Copy(own[mesh], label, corners, own[other], below))
-    for found in maps:
-        found.stacked = np.array([copy.label for copy in copies if copy.found is found], dtype=np.int64)
+            own[mesh].stacked.append(label)
+            copies.append((own[mesh], corners, own[other], below))
     return copies
 
 
-def _pile_up(maps: Sequence[_Map], copies: Sequence[_Copy]) -> None:
-    """Lay copies on the islands that have a place."""
-    present = {other: uv_map.read_uvs(other.obj) for other in dict.fromkeys(copy.other for copy in copies)}
-    for found in maps:
-        own = [copy for copy in copies if copy.found is found]
-        if own:
-            uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
-            found.write(np.concatenate([copy.corners for copy in own]), uvs)
+def _pile_up(copies: Sequence[_Copy]) -> None:
+    present = {other: uv_islands.read_uvs(other.obj) for _, _, other, _ in copies}
+    for found in dict.fromkeys(copy[0] for copy in copies):
+        own = [(corners, present[other][below]) for each, corners, other, below in copies if each is found]
+        corners, uvs = map(np.concatenate, zip(*own, strict=True))
+        found.write(corners, uvs.astype(np.float64))
 
 
 @contextmanager
-def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[None]:
+def _with_uv_maps(context: bpy.types.Context, maps: Sequence[_Map]) -> Iterator[None]:
     """Let objects that are unwrapped have a UV map, and other objects none that they had not; on an error all as before."""
     # Blender would make missing UV maps while it unwraps, and what is selected would be other items then.
     made = [found.obj.data for found in maps if not found.obj.data.uv_layers]
@@ -420,26 +378,9 @@ def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[
     try:
         yield
     except BaseException:
-        _remove_uv_maps(made)
+        bare += made
         raise
     finally:
-        _remove_uv_maps(bare)
-
-
-def _remove_uv_maps(meshes: Iterable[bpy.types.Mesh]) -> None:
-    # In Blender 5 references to layers do not last.
-    for data in meshes:
-        while data.uv_layers:
-            data.uv_layers.remove(data.uv_layers[0])
-
-
-@contextmanager
-def _only_selected(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> Iterator[None]:
-    """Have nothing selected but some faces of maps; not in the UV editor, where its own selection counts."""
-    with edit_mesh.nothing_selected(context):
-        for found, numbers in faces.items():
-            bm = edit_mesh.edit_bmesh(found.obj.data)
-            for face in numbers.tolist():
-                bm.faces[face].select = True
-        with context.temp_override(area=None, region=None):
-            yield
+        for data in bare:
+            while data.uv_layers:  # in Blender 5 references to layers do not last
+                data.uv_layers.remove(data.uv_layers[0])

@@ -68,7 +68,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
         from ..mesh import edit_mesh
-        from ..mesh.seam_islands import faces_to_cut
+        from ..mesh.uv_islands import faces_to_cut
 
         found = self.for_each_object(context, faces_to_cut)
         if not found:
@@ -83,7 +83,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
 
     def _select_worst_island(self, context: bpy.types.Context) -> set[str]:
         from ..mesh import edit_mesh
-        from ..mesh.seam_islands import worst_island
+        from ..mesh.uv_islands import worst_island
 
         found = self.for_each_object(context, lambda obj: worst_island(obj, self.kind))
         if not found:
@@ -129,7 +129,7 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
     description = description_of_item("what")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        from ..mesh.seam_islands import store
+        from ..mesh.uv_islands import store
 
         with changing():
             found = self.for_each_object(context, lambda obj: store(obj, self.what))
@@ -186,9 +186,9 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
             self.layout.prop(self, name)
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        from ..core.islands.square_use import square_use
-        from ..mesh.seam_islands import in_scene, maps_of
+        from ..core.islands.uv_maps import square_use
         from ..mesh.unwrap import Layout, unwrap_changed
+        from ..mesh.uv_islands import maps_of
 
         layout = Layout(self.straight, self.upright, self.stack)
         done = unwrap_changed(context, method=self.method, layout=layout, every=not self.changed_only)
@@ -202,7 +202,7 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
             has = "hidden face has no place", "hidden faces have no place"
             parts.append(f"{count(done.unmapped, *has)} in the map")
         with changing():
-            parts.append(square_used(square_use(in_scene(maps_of(done.objects)))))
+            parts.append(square_used(square_use([*maps_of(done.objects).values()])))
         self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 

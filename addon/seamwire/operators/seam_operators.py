@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.network.wires import Wire
-    from ..core.seams.gaps import Gap
+    from ..core.seams.seam_wires import Gap
     from ..mesh.object_session import ObjectSession
 
 
@@ -87,7 +87,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Draw wires over the gaps of all objects before writing to any, so that an error leaves all of them unchanged."""
-        from ..core.seams.gaps import GapFinder
+        from ..core.seams.seam_wires import GapFinder
 
         meshes = self.open_meshes(context)
         if not meshes:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..core.islands.square_use import SquareUse
+    from ..core.islands.uv_maps import SquareUse
     from ..mesh.seam_search import SeamSearch, Suggestion
     from ..view.viewport import Place
 

@@ -396,7 +396,7 @@ class Chain:
         """
         view, self.drawn_on = self.drawn_on, None
         if view is not None and view.mesh.alive():
-            view.mesh.drop_changes(self._before)
+            view.session.adopt(self._before, view.mesh.plain_seams)
             if self._is_saved:
                 view.mesh.write(view.mesh.plan(), adopt=True)
                 view.renew()
@@ -492,9 +492,9 @@ def _apply(view: ObjectView, change: Change) -> str:
         left = sum(map(change.finishes, change.after.wires))
         return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
     _, done = finishes.apply(view.mesh, change)
-    if done.text:
+    if done:
         edited.forget(view)
-    return done.text
+    return done
 
 
 def unwrap_after_chain(context: bpy.types.Context) -> str:

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.newest import Newest
-from ..core.islands.stretch import Stretch
+from ..core.islands.uv_maps import Stretch
 from ..core.offers.crests import Crests
-from ..mesh import uv_map
+from ..mesh import uv_islands
 from ..terms.choices import HEATS
 from ..words.reports import count
 from . import gpu_draw
@@ -176,10 +176,10 @@ class StretchHeat(Layer):
             return False
         arrays = self._arrays
         if self._stretch is None:
-            corners, uvs = uv_map.read(obj)
+            corners, uvs = uv_islands.read_map(obj)
             self._stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
         else:
-            uvs = uv_map.read_uvs(obj)
+            uvs = uv_islands.read_uvs(obj)
         self._is_missing = uvs is None
         if uvs is not None:
             self._stretch.update(uvs)

@@ -16,7 +16,7 @@ from mathutils import Matrix
 from ..core.islands.islands import IslandMaker
 from ..core.network.drawn import edges_after
 from ..core.picking.picker import REACH, Picker
-from ..core.seams.gaps import GapFinder
+from ..core.seams.seam_wires import GapFinder
 from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.edit_mesh import visible_stretch

@@ -12,7 +12,7 @@ from .reports import count, percent, square_used
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from ..core.islands.square_use import SquareUse
+    from ..core.islands.uv_maps import SquareUse
     from ..core.seams.seam_plan import PartChoice
     from ..core.sketch.picture import Picture
     from ..terms.choices import PartsBy

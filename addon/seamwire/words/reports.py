@@ -12,8 +12,7 @@ from ..terms.choices import PARTS_BY
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from ..core.islands.map_faults import MapFaults
-    from ..core.islands.square_use import CostlyIsland, SquareUse
+    from ..core.islands.uv_maps import CostlyIsland, MapFaults, SquareUse
     from ..core.sketch.change import Change
     from ..terms.choices import PartsBy
 

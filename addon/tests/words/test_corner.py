@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from seamwire.core.islands.islands import Islands
-from seamwire.core.islands.square_use import SquareUse
-from seamwire.core.seams.gaps import Gap
+from seamwire.core.islands.uv_maps import SquareUse
 from seamwire.core.seams.seam_plan import PartChoice
+from seamwire.core.seams.seam_wires import Gap
 from seamwire.terms.choices import KINDS
 from seamwire.words.corner import FoundMap, lines, rows_of_parts
 from table import Table

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from seamwire.core.islands.square_use import CostlyIsland, SquareUse
+from seamwire.core.islands.uv_maps import CostlyIsland, SquareUse
 from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.network.wires import split

@@ -4,8 +4,7 @@
 from dataclasses import replace
 
 import pytest
-from seamwire.core.islands.map_faults import MapFaults
-from seamwire.core.islands.square_use import SquareUse
+from seamwire.core.islands.uv_maps import MapFaults, SquareUse
 from seamwire.words.reports import Outcome, in_words, is_beyond, not_reached, percent
 
 

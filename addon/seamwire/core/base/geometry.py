@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Geometry of points, straight pieces of curves, and triangles."""
+"""Geometry of points, straight pieces of curves, and triangles, and things that hang together."""
 
 from __future__ import annotations
 
@@ -8,11 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Hashable, Iterable
+
     from numpy.typing import ArrayLike, NDArray
+
+_FLAT = 1e-4
+"""How near to its longest side a triangle's corner is where the triangle has no area, as part of that side: vertices are placed on
+edges in single precision."""
 
 
 def length_of(curve: ArrayLike) -> float:
-    """Return the length of a curve through (k, d) points."""
     return float(np.linalg.norm(np.diff(curve, axis=0), axis=1).sum())
 
 
@@ -35,12 +40,8 @@ def barycentric(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Find a point, (d,), in triangles, (k, 3, d), or a point in each, (k, d).
 
-    Returns
-    -------
-    weights
-        (k, 3) barycentric coordinates of a place in each triangle that is the point or near it.
-    off
-        (k,) how far the point is from it, as part of the triangle's longest edge; infinite where that has no area.
+    Returns barycentric coordinates, (k, 3), of a place in each triangle that is the point or near it. Also returns how far the point is
+    from that place, (k,), as part of the triangle's longest edge: infinite if the triangle has no area.
     """
     a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     w = point - a
@@ -56,7 +57,6 @@ def barycentric(
 
 
 def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the areas, (m,), of (m, 3) triangles of (n, 3) points."""
     return 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
 
 
@@ -83,3 +83,64 @@ def units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors, (..., 3), with length 1, or 0 if they have none."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
+
+
+def without_flat_triangles(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Return (m, 3) triangles with other diagonals where a corner between two others left one without area.
+
+    Two polygons that have three corners in a row in common could share the diagonal past the middle one, and hang together there
+    though both edges are cut. `polygons`, (m,), is the polygon of each triangle, ascending.
+    """
+    shares = np.flatnonzero(polygons[1:] == polygons[:-1])
+    among = np.union1d(shares, shares + 1)
+    flat = among[_flat_corners(points[triangles[among]]) >= 0]
+    if not len(flat):
+        return triangles
+    triangles, turned = triangles.copy(), True
+    while turned:
+        turned = False
+        for row in flat.tolist():
+            middle = int(_flat_corners(points[triangles[[row]]])[0])
+            if middle < 0:
+                continue
+            m, b, a = np.roll(triangles[row], -middle).tolist()
+            for mate in range(*np.searchsorted(polygons, (polygons[row], polygons[row] + 1)).tolist()):
+                other = {*triangles[mate].tolist()} - {a, b}
+                if mate == row or len(other) != 1:
+                    continue
+                (x,) = other
+                pair = np.array([(a, m, x), (m, b, x)], dtype=np.int32)
+                if (_flat_corners(points[pair]) < 0).all():
+                    triangles[[row, mate]], turned = pair, True
+                    break
+    return triangles
+
+
+def _flat_corners(corners: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return which corner of each triangle, (m, 3, 3), lies on the side between the others, (m,), or -1."""
+    sides = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)  # each opposite to its corner
+    squares = np.einsum("ijk,ijk->ij", sides, sides)
+    return np.where(relative_heights(corners) <= _FLAT, squares.argmax(axis=1), -1)
+
+
+def groups(keys: Iterable[Iterable[Hashable]]) -> list[list[int]]:
+    """Return the rows of things in groups. Things that share a key are in one group. Groups are in the order of their first rows."""
+    first: dict[Hashable, int] = {}
+    leads: list[int] = []  # from each row to a smaller one of its group, or to itself
+
+    def begin(row: int) -> int:
+        while leads[row] != row:
+            leads[row] = row = leads[leads[row]]
+        return row
+
+    for row, own in enumerate(keys):
+        leads.append(row)
+        for key in own:
+            low, high = sorted((begin(first.setdefault(key, row)), begin(row)))
+            leads[high] = low
+    found: dict[int, list[int]] = {}
+    for row in range(len(leads)):
+        found.setdefault(begin(row), []).append(row)
+    return list(found.values())

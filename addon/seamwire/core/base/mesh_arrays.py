@@ -18,33 +18,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Arrays:
-    """An edit mesh as the library needs it.
+    """An edit mesh as the library needs it."""
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices, stretched as the object's matrix stretches them: lengths are those that are seen.
-    triangles
-        (m, 3) the visible faces, cut into triangles as Blender does, but for those without area.
-    polygons
-        (m,) the face that each triangle is part of, ascending.
-    edges
-        (e, 2) the visible edges of the polygons, no diagonals.
-    to_object
-        (3, 3) takes `points` to object coordinates, see `in_object`.
-    seams
-        (k, 2) those of the visible edges that are seams.
-    partly_hidden
-        (h, 2) those of the visible edges that hidden faces have too.
-    marked
-        (s, 2) those of the visible edges that are marked sharp, and (t, 2) those that faces of several materials share.
-    """
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    polygons: NDArray[np.int32]
-    edges: NDArray[np.int32]
-    to_object: NDArray[np.float64]
+    points: NDArray[
+        np.float64
+    ]  # (n, 3) stretched as the object's matrix stretches them: lengths are those that are seen
+    triangles: NDArray[np.int32]  # (m, 3) the visible faces, cut as Blender does, but for those without area
+    polygons: NDArray[np.int32]  # (m,) the face that each triangle is part of, ascending
+    edges: NDArray[np.int32]  # (e, 2) the visible edges of the polygons, no diagonals
+    to_object: NDArray[np.float64]  # (3, 3) takes `points` to object coordinates
+    # Of the visible edges, (k, 2) each: seams, those that hidden faces have too, and those marked sharp and between materials.
     seams: NDArray[np.int32]
     partly_hidden: NDArray[np.int32]
     marked: tuple[NDArray[np.int32], ...] = ()

@@ -66,10 +66,7 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
 
 
 def _import() -> ModuleType:
-    """Import the module from where Python finds it; on Windows a copy of it.
-
-    Nobody can overwrite or delete a loaded library there, so Blender could neither update nor remove the add-on.
-    """
+    """Import the module, on Windows a copy of it: a loaded library cannot be overwritten there, so Blender could not update the add-on."""
     found = PathFinder.find_spec(NAME) if sys.platform == "win32" else None
     if found is None or found.origin is None or not found.origin.endswith(".pyd"):
         return importlib.import_module(NAME)
@@ -108,7 +105,7 @@ def _copied(library: Path) -> Path:
 
 def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
     # Python cannot let go of a compiled module: after an update in place the old one stays until Blender ends.
-    versions = {_version(wheel) for wheel in wheels.glob("*.whl")}
+    versions = {wheel.stem.split("-")[1] for wheel in wheels.glob("*.whl")}
     if versions and module.__version__ not in versions:
         found = PathFinder.find_spec(NAME)
         place = found.origin if found and found.origin else module.__file__
@@ -120,7 +117,6 @@ def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
 
 
 def _unpacked(folder: Path, wheels: Path) -> Path:
-    """Return where to import from: the folder, or the one below it that the fitting wheel was unpacked to."""
     fitting = _fitting(wheels)
     if not fitting:
         return folder
@@ -142,19 +138,11 @@ def _unpacked(folder: Path, wheels: Path) -> Path:
     return place
 
 
-def _version(wheel: Path) -> str:
-    return wheel.stem.split("-")[1]
-
-
 def _fitting(wheels: Path) -> list[Path]:
-    return [wheel for wheel in wheels.glob("*.whl") if _fits(wheel)]
-
-
-def _fits(wheel: Path) -> bool:
-    """Tell whether a wheel is for this Python and processor, by its name: NAME-VERSION-PYTHON-ABI-PLATFORM."""
-    python, _, platform = wheel.stem.split("-")[2:]
-    here = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return python == here and platform.endswith(sysconfig.get_platform().split("-")[-1])
+    """Return the wheels for this Python and processor, by their names: NAME-VERSION-PYTHON-ABI-PLATFORM."""
+    start, end = f"cp{sys.version_info.major}{sys.version_info.minor}-", sysconfig.get_platform().split("-")[-1]
+    names = ((wheel, wheel.stem.split("-", 2)[2]) for wheel in wheels.glob("*.whl"))
+    return [wheel for wheel, name in names if name.startswith(start) and name.endswith(end)]
 
 
 def _is_absent(error: ImportError) -> bool:

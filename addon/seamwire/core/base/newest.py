@@ -38,7 +38,6 @@ class Newest(Generic[Asked, Answer]):
         return self._answer
 
     def check(self) -> None:
-        """Raise what went wrong on the thread since the last call."""
         error, self._error = self._error, None
         if error is not None:
             raise error

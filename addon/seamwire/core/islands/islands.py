@@ -16,7 +16,7 @@ from ..base.newest import Newest
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..seams.gaps import Gap, GapFinder
+    from ..seams.seam_wires import Gap, GapFinder
 
 Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
 """Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest island first."""
@@ -39,58 +39,23 @@ PLACES = [(4 + 5 * hue) % HUES for hue in range(HUES)]
 
 @dataclass(frozen=True)
 class Islands:
-    """The islands that a network cuts a mesh into.
-
-    Parameters
-    ----------
-    key
-        The key of the request.
-    count
-        How many islands there are.
-    labels
-        (m,) of each triangle.
-    hues
-        (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `PLACES`.
-    missing
-        (count,) how many more cuts each needs before it can lie flat.
-    cut
-        Whether anything was cut.
-    parted
-        Whether the cuts part the mesh. Otherwise the islands are the parts that it has anyway.
-    pieces
-        For each hue that is used: it, and its triangles, (k, 3).
-    gaps
-        Where a cut ends just before it meets another one, shortest first.
-    """
-
-    key: object
+    key: object  # of the request
     count: int
-    labels: NDArray[np.int32]
-    hues: NDArray[np.uint8]
-    missing: NDArray[np.int32]
-    cut: bool
-    parted: bool
-    pieces: tuple[tuple[int, NDArray[np.int32]], ...]
-    gaps: tuple[Gap, ...] = ()
+    labels: NDArray[np.int32]  # (m,) the island of each triangle
+    hues: NDArray[np.uint8]  # (count,) below `HUES`; those of neighbors across a cut are far apart, see `PLACES`
+    missing: NDArray[np.int32]  # (count,) how many more cuts each needs before it can lie flat
+    cut: bool  # whether anything was cut
+    parted: bool  # whether the cuts part the mesh; otherwise the islands are the parts that it has anyway
+    pieces: tuple[tuple[int, NDArray[np.int32]], ...]  # for each hue that is used: it, and its triangles, (k, 3)
+    gaps: tuple[Gap, ...] = ()  # where a cut ends just before it meets another one, shortest first
 
     @cached_property
     def sizes(self) -> NDArray[np.int64]:
-        """(count,) how many triangles each has."""
         return np.bincount(self.labels, minlength=self.count)
 
 
 class IslandMaker(Newest[_Request, Islands]):
-    """Computes islands in its own thread. Only the newest waiting request is answered.
-
-    Parameters
-    ----------
-    label
-        What tells the islands apart; called on the thread.
-    gaps
-        Finds what keeps islands from separating; None: that is not asked for.
-    count
-        Counts the cuts that islands need; called on the thread. None: no island needs any.
-    """
+    """Computes islands in its own thread, where it calls `label` and `count`. Only the newest waiting request is answered."""
 
     def __init__(
         self,
@@ -133,14 +98,11 @@ class IslandMaker(Newest[_Request, Islands]):
             if bounds[hue] < bounds[hue + 1]
         )
         missing = np.zeros(count, dtype=np.int32) if self._count is None else self._count(cuts, labels)
-        gaps = (
-            ()
-            if self._gaps is None
-            else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE, meant=meant))
-        )
-        return Islands(key, count, labels, hues, missing, len(cuts) > 0, count > self._parts, pieces, gaps)
+        gaps = []
+        if self._gaps is not None:
+            gaps = self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE, meant=meant)
+        return Islands(key, count, labels, hues, missing, len(cuts) > 0, count > self._parts, pieces, tuple(gaps))
 
     @cached_property
     def _parts(self) -> int:
-        """How many parts the mesh has without cuts."""
         return int(np.max(self._label(np.empty((0, 2), dtype=np.int32)), initial=-1)) + 1

@@ -28,40 +28,21 @@ CREST_KINDS: tuple[LoopKind, ...] = ("RIDGE", "VALLEY")
 
 @dataclass(frozen=True, eq=False)
 class Crests:
-    """Ridges and valleys, the strongest first: line i has the points starts[i] to starts[i + 1].
+    """Ridges and valleys, the strongest first: line i has the points starts[i] to starts[i + 1]."""
 
-    Parameters
-    ----------
-    points
-        (p, 3) each on an edge. A closed line ends with its first point.
-    edges, t
-        (p, 2) and (p,): which edge, and where on it, 0 to 1.
-    faces
-        (p,) the triangle that leads to the next point; -1 at a line's end.
-    curvatures
-        (p,) above 0 along ridges, below along valleys.
-    starts
-        (k + 1,).
-    strengths
-        (k,) the curvature along each line, in radians.
-    """
-
-    points: NDArray[np.float64]
-    edges: NDArray[np.int32]
-    t: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    curvatures: NDArray[np.float64]
-    starts: NDArray[np.int32]
-    strengths: NDArray[np.float64]
+    points: NDArray[np.float64]  # (p, 3) each on an edge; a closed line ends with its first point
+    edges: NDArray[np.int32]  # (p, 2) which edge
+    t: NDArray[np.float64]  # (p,) where on it, 0 to 1
+    faces: NDArray[np.int32]  # (p,) the triangle that leads to the next point; -1 at a line's end
+    curvatures: NDArray[np.float64]  # (p,) above 0 along ridges, below along valleys
+    starts: NDArray[np.int32]  # (k + 1,)
+    strengths: NDArray[np.float64]  # (k,) the curvature along each line, in radians
 
     @classmethod
     def on(
         cls, core: ModuleType, surface: seamwire_core.Surface, go_on: Callable[[float], bool] | None = None
     ) -> Crests:
-        """Return those of a surface, found by the library's module.
-
-        `go_on` receives the fraction that is done, and returns False to raise the library's ``Cancelled``.
-        """
+        """Find those of a surface. `go_on` receives the fraction that is done, and returns False to raise the library's ``Cancelled``."""
         curvature = core.principal_curvatures(surface, go_on)
         lines = core.crest_lines(surface, core.smoothed_curvatures(surface, curvature, progress=go_on), progress=go_on)
         return cls(lines.points, lines.edges, lines.t, lines.faces, lines.curvatures, lines.starts, lines.strengths)
@@ -76,12 +57,10 @@ class Crests:
 
     @cached_property
     def segments(self) -> NDArray[np.float64]:
-        """The straight pieces of all lines, (s, 2, 3)."""
         return np.stack([self.points[self.pieces], self.points[self.pieces + 1]], axis=1)
 
     @cached_property
     def owners(self) -> NDArray[np.int64]:
-        """The line that each point is of, (p,)."""
         return np.repeat(np.arange(len(self)), np.diff(self.starts))
 
     @cached_property
@@ -95,17 +74,13 @@ class Crests:
         return self.curvatures[self.starts[:-1]] > 0.0
 
     def line(self, number: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        """Return a line's points, (q, 3), and the triangle that each lies in, (q,)."""
         mine = slice(self.starts[number], self.starts[number + 1])
         faces = self.faces[mine].copy()
         faces[-1] = faces[-2]
         return self.points[mine], faces
 
     def line_at(self, pick: Pick) -> int | None:
-        """Return the strongest line at a pick, or None.
-
-        It crosses an edge of a vertex, the triangle of a point, or this edge, or it runs beside that.
-        """
+        """Return the strongest line across an edge of a vertex, across the triangle of a point, or across or beside an edge."""
         if isinstance(pick, FacePoint):
             found = self.owners[self.faces == pick.triangle]
         elif isinstance(pick, tuple):

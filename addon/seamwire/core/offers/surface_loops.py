@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -40,25 +40,15 @@ _MOST_BYTES = 16_000_000
 
 @dataclass(frozen=True, eq=False)
 class TakenCut:
-    """A closed cut that is kept, and where it came from: what it takes to bend it.
+    """A closed cut that is kept, and where it came from: what it takes to bend it."""
 
-    Attributes
-    ----------
-    through
-        The point that it was taken at.
-    course
-        (k, 3) its course when it was added, from that point around. Bending does not change it.
-    id
-        The library's number among the cuts through that point, or None if it was added on another mesh.
-    metric
-        The request that found it.
-    """
-
-    through: Pick
-    course: NDArray[np.float64]
+    through: Pick  # the point that it was taken at
+    course: NDArray[np.float64]  # (k, 3) when it was added, from that point around; bending does not change it
     wires: tuple[Wire, ...]
-    id: tuple[int, int] | None = None
-    metric: tuple[object, ...] = ()
+    id: tuple[int, int] | None = (
+        None  # the library's among the cuts through that point; None: it was added on another mesh
+    )
+    metric: tuple[object, ...] = ()  # the request that found it
 
     def is_in(self, network: Drawn) -> bool:
         own = [(wire, network.find(wire)) for wire in self.wires]
@@ -91,7 +81,6 @@ def _runs_along(course: NDArray[np.float64], other: NDArray[np.float64], near: f
 
 
 def _mean_gap(course: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    """Return how far a course is from another, in the mean over its length."""
     steps = np.linalg.norm(np.diff(course, axis=0), axis=1)
     gaps = [
         np.nanmin(nearest_on_segments(place, other[:-1], other[1:])[1]) for place in 0.5 * (course[:-1] + course[1:])
@@ -99,51 +88,36 @@ def _mean_gap(course: NDArray[np.float64], other: NDArray[np.float64]) -> float:
     return float(np.average(gaps, weights=steps))
 
 
-@dataclass(frozen=True)
-class _StoredCut:
-    """A closed cut by the numbers under which meshes know its wires; its course, in object coordinates."""
-
-    numbers: frozenset[int]
-    course: NDArray[np.float64] = field(compare=False)
-
-
 class CutMemory:
     """The closed cuts that were taken since the file was opened: undo brings back meshes whose sessions are over."""
 
     def __init__(self) -> None:
-        self._cuts: dict[_StoredCut, None] = {}
-        self._size = 0
+        self.clear()
 
     def clear(self) -> None:
-        self._cuts.clear()
+        # Courses in object coordinates, by the numbers under which meshes know the wires of a cut.
+        self._courses: dict[frozenset[int], NDArray[np.float64]] = {}
         self._size = 0
 
     def keep(self, cuts: Iterable[TakenCut], network: Drawn, places: Places) -> None:
-        """Remember cuts that a mesh holds now, and the numbers that it knows their wires by, which `network` has."""
         number_of = {wire.id: wire.stored for wire in network.wires}
         for cut in cuts:
             numbers = frozenset(number_of[wire.id] for wire in cut.wires)
-            if 0 not in numbers:
-                self._add(_StoredCut(numbers, cut.course @ places.to_object.T))
-
-    def _add(self, cut: _StoredCut) -> None:
-        if cut in self._cuts:
-            return
-        self._cuts[cut] = None
-        self._size += cut.course.nbytes
-        while self._size > _MOST_BYTES and len(self._cuts) > 1:
-            oldest = next(iter(self._cuts))
-            del self._cuts[oldest]
-            self._size -= oldest.course.nbytes
+            if 0 in numbers or numbers in self._courses:
+                continue
+            self._courses[numbers] = cut.course @ places.to_object.T
+            self._size += cut.course.nbytes
+            while self._size > _MOST_BYTES and len(self._courses) > 1:
+                self._size -= self._courses.pop(next(iter(self._courses))).nbytes
 
     def recall(self, network: Drawn, places: Places) -> Iterator[TakenCut]:
         """Yield the cuts whose wires a network has, as they are on its mesh, the one taken last at the end."""
         wire_of = {wire.stored: wire for wire in network.wires}
-        for cut in self._cuts:
-            if not wire_of.keys() >= cut.numbers:
+        for numbers, in_object in self._courses.items():
+            if not wire_of.keys() >= numbers:
                 continue
-            wires = tuple(wire_of[number] for number in sorted(cut.numbers))
-            course = cut.course @ np.linalg.pinv(places.to_object).T
+            wires = tuple(wire_of[number] for number in sorted(numbers))
+            course = in_object @ np.linalg.pinv(places.to_object).T
             # A point inside a face became a vertex when the wires were cut.
             ends = {end for wire in wires for end in (wire.start, wire.end) if not isinstance(end, tuple)}
             gaps = {end: float(np.linalg.norm(place_of(end, places.points) - course[0])) for end in ends}
@@ -165,14 +139,8 @@ class SurfaceLoops:
     ) -> tuple[tuple[Wire, ...], bool]:
         """Return the closed cuts through a pick, each as one wire to be shown, and whether they are final.
 
-        Raise ValueError if the pick is not part of the surface, or there is no cut that can be bent to it.
-
-        Parameters
-        ----------
-        bends
-            Whether to find the cut that was taken last, bent to the pick.
-        into_faces
-            Whether what is taken is to be cut into the faces. Otherwise two cuts that go to the same edges are one.
+        With `bends`, it is the cut that was taken last, bent to the pick. If cuts do not go `into_faces`, two of them that go to the same
+        edges are one. Raise ValueError if the pick is not part of the surface, or there is no cut that can be bent to it.
         """
         live = self._engines.cuts()
         begin = pick
@@ -210,7 +178,6 @@ class SurfaceLoops:
         return next((cut for cut in known if cut.is_in(network)), None)
 
     def taken(self, network: Drawn) -> tuple[TakenCut, ...]:
-        """Return the cuts that a network still has unchanged, in the order in which they were added or recalled."""
         return tuple(cut for cut in self._cuts if cut.is_in(network))
 
     def recall(self, cuts: Iterable[TakenCut]) -> None:
@@ -218,16 +185,14 @@ class SurfaceLoops:
         self._cuts = list(cuts)
 
     def _id_of(self, cut: TakenCut, live: LiveWire) -> tuple[int, int] | None:
-        """Return what the library calls a cut that is bent; None while that is computed, where it was taken on another mesh.
-
-        On a mesh that was cut the numbers are others: it is the one that runs as the cut ran.
-        """
+        """Return the library's number of a cut that is bent. None while it is computed: on a mesh that was cut, numbers are others."""
         if cut.id is not None:
             return cut.id
         found = live.closed_wires(for_live(cut.through, "SURFACE"))
         if not found.final:
             return None
-        apart = {each.id: is_same(cut.course, _course(each)) for each in found.cuts}
+        courses = {each.id: np.concatenate([np.asarray(piece.points) for piece in each.pieces]) for each in found.cuts}
+        apart = {number: is_same(cut.course, course.astype(np.float64)) for number, course in courses.items()}
         same = {number: gap for number, gap in apart.items() if gap is not None}
         if not same:
             raise Refused("The mesh has changed too much to find this cut again: undo, or add another cut")
@@ -253,38 +218,19 @@ class SurfaceLoops:
     def _pieces_of(self, cut: ClosedCut, pick: Pick) -> tuple[Wire, ...]:
         joints: list[Pick] = []
         for joint in cut.joints:
-            if isinstance(joint, int):
-                joints.append(joint)
-                continue
-            triangle, (a, b, c) = joint
-            one, two, three = self._triangles[triangle].tolist()
-            joints.append(FacePoint(int(triangle), (one, two, three), (float(a), float(b), float(c))))
-        return tuple(
-            Wire(
-                "SURFACE",
-                tuple(int(vertex) for vertex in piece.vertices),
-                np.array(piece.points, dtype=np.float64),
-                start,
-                end,
-                np.array(piece.faces),
-            )
-            for piece, start, end in zip(cut.pieces, [pick, *joints], [*joints, pick], strict=True)
-        )
-
-
-def _course(cut: ClosedCut) -> NDArray[np.float64]:
-    return np.concatenate([np.asarray(piece.points, dtype=np.float64) for piece in cut.pieces])
+            if not isinstance(joint, int):
+                triangle, weights = joint
+                joint = FacePoint(int(triangle), tuple(self._triangles[triangle].tolist()), tuple(map(float, weights)))
+            joints.append(joint)
+        wires = []
+        for piece, start, end in zip(cut.pieces, [pick, *joints], [*joints, pick], strict=True):
+            vertices, points = tuple(map(int, piece.vertices)), np.array(piece.points, dtype=np.float64)
+            wires.append(Wire("SURFACE", vertices, points, start, end, np.array(piece.faces)))
+        return tuple(wires)
 
 
 def _whole(pieces: tuple[Wire, ...], separates: bool) -> Wire:
+    vertices = sum((piece.vertices[:-1] for piece in pieces), ())
+    points = np.concatenate([piece.points[:-1] for piece in pieces] + [pieces[0].points[:1]])
     kind: LoopKind = "ACROSS" if separates else "HANDLE"
-    return replace(
-        pieces[0].anew(
-            vertices=sum((piece.vertices[:-1] for piece in pieces), ()),
-            points=np.concatenate([piece.points[:-1] for piece in pieces] + [pieces[0].points[:1]]),
-            faces=None,
-        ),
-        end=pieces[0].start,
-        closed=True,
-        kind=kind,
-    )
+    return pieces[0].anew(vertices=vertices, points=points, faces=None, end=pieces[0].start, closed=True, kind=kind)

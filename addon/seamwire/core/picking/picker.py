@@ -39,19 +39,10 @@ _SEED_REACH, _WIRE_REACH, _SEAM_REACH, _CREST_REACH = 9.0, 6.0, 4.0, 10.0
 
 @dataclass(frozen=True)
 class Camera:
-    """How a region sees the world. Its size is in pixels.
-
-    Attributes
-    ----------
-    perspective
-        (4, 4), takes world coordinates to clip space.
-    clipped
-        (k, 4) the planes of Blender's clipping border: what lies on the negative side of one is not shown.
-    """
-
-    width: float
+    width: float  # pixels
     height: float
-    perspective: NDArray[np.float64]
+    perspective: NDArray[np.float64]  # (4, 4), takes world coordinates to clip space
+    # (k, 4) the planes of Blender's clipping border: what lies on the negative side of one is not shown.
     clipped: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 4)))
 
     def to_pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -110,18 +101,9 @@ class Picker:
     ) -> Snap | None:
         """Return what a click would take: a seed before a wire, a wire before a seam, a seam before the plain mesh.
 
-        Parameters
-        ----------
-        vertices_only, edges_only
-            Find vertices of the mesh alone, or edges.
-        anywhere
-            Of vertices alone, find only those that are meant. Otherwise find the point of the surface under the cursor.
-        session
-            Whose seeds and wires can be found. Without it, neither these nor seams are found.
-        preferred, crests
-            Vertices, and ridges and valleys, that are taken before anything else of the plain mesh nearby.
-        strength
-            (n,) how strong the feature is at each vertex. The nearest corner is taken, and otherwise the strongest feature nearby.
+        Without a session neither its seeds and wires nor seams are found. With `anywhere`, of vertices alone only those are found that are
+        meant, and otherwise the point of the surface under the cursor. Preferred vertices and crests are taken before anything else of the
+        plain mesh nearby. Then the nearest corner is taken, and otherwise the feature nearby with most strength, (n,).
         """
         if session is not None:
             self._follow(session)

@@ -23,7 +23,7 @@ from ..network.picks import undirected
 from ..network.wires import FOLLOWS, Wire
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
+    from collections.abc import Collection, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -62,10 +62,7 @@ def stretch_of(energy: float) -> float:
 
 
 def turned_limit(percent: float, notches: int, first: float = LIMITS[0]) -> float:
-    """Return the next limit in percent, if there is one, after a turn of the wheel: by 1 for more stretch, by -1 for less.
-
-    It is one of `LIMITS`, or the `first` limit that was shown.
-    """
+    """Return the next limit in percent after a turn of the wheel, by 1 or by -1: one of `LIMITS`, or the `first` limit that was shown."""
     beyond = [limit for limit in (*LIMITS, first) if notches * (limit - percent) > _SAME_LIMIT * percent]
     return min(beyond, key=lambda limit: abs(limit - percent), default=percent)
 
@@ -73,11 +70,7 @@ def turned_limit(percent: float, notches: int, first: float = LIMITS[0]) -> floa
 def planned_wires(
     plan: seamwire_core.SeamPlan, along: Along, strength: float, from_object: NDArray[np.float64]
 ) -> list[Wire]:
-    """Return the wires of a plan that was made in object coordinates.
-
-    `along` and `strength` say how the wires run, and how strongly they follow the shape when they are drawn again. `from_object`, (3, 3),
-    takes object coordinates to those of the session.
-    """
+    """Return the wires of a plan in object coordinates. `from_object`, (3, 3), takes these to the coordinates of the session."""
     return [
         Wire(
             along, tuple(wire.vertices.tolist()), np.asarray(wire.points) @ from_object.T, *wire.seeds,
@@ -88,13 +81,7 @@ def planned_wires(
     ]  # fmt: skip
 
 
-def curves_length(curves: Iterable[NDArray[np.float64]], to_scene: NDArray[np.float64]) -> float:
-    """Return the length of curves, (k, 3) each, in the coordinates that `to_scene`, (3, 3), takes them to."""
-    return float(sum(np.linalg.norm(np.diff(curve, axis=0) @ to_scene.T, axis=1).sum() for curve in curves))
-
-
 def cut_edges(plan: seamwire_core.SeamPlan, seams: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return the edges, (k, 2), that are seams, and those that the wires of a plan run along."""
     chains = [np.stack([wire.vertices[:-1], wire.vertices[1:]], axis=1) for wire in plan.wires]
     return np.concatenate([seams, *chains]).astype(np.int32)
 
@@ -122,32 +109,23 @@ def stroke_weights(
             beside = edges[(near[edges] > 0.0).any(axis=1)]
             length = float(np.linalg.norm(np.diff(points[beside], axis=1), axis=2).mean()) if len(beside) else 0.0
             near[_distances(points, stroke.points) < _UNDER * length] = 1.0
-            near = _faded_by_rings(near, edges)
+            for ring in range(1, _STROKE_RINGS):
+                reached = near[edges] > 0.0
+                border = np.unique(edges[reached.any(axis=1) & ~reached.all(axis=1)])
+                near[border[near[border] == 0.0]] = 1.0 - ring / _STROKE_RINGS
         else:
             near = np.maximum(near, 1.0 - _distances(points, stroke.points) / stroke.radius)
         logarithms += -near if stroke.attracts else near
     return _STROKE_STRENGTH**logarithms
 
 
-def _faded_by_rings(near: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return (n,) values that are 1 at some vertices and 0 elsewhere with less than 1 on the rings of vertices around these."""
-    near = near.copy()
-    for ring in range(1, _STROKE_RINGS):
-        reached = near[edges] > 0.0
-        border = np.unique(edges[reached.any(axis=1) & ~reached.all(axis=1)])
-        near[border[near[border] == 0.0]] = 1.0 - ring / _STROKE_RINGS
-    return near
-
-
 def _distances(points: NDArray[np.float64], line: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far points, (n, 3), are from a line through places, (k, 3)."""
     starts = np.arange(len(line))
     sides = np.stack([starts[:-1], starts[1:], starts[1:]], axis=1) if len(line) > 1 else np.zeros((1, 3), dtype=int)
     return native.load().NearestPoints(line, sides).find(points)[2]
 
 
 def mean_stretch(energies: Sequence[float], areas: Sequence[float]) -> float:
-    """Return the stretch of several maps together, from the energy of each and the area of its surface."""
     total = sum(areas)
     if total <= 0.0:
         return 0.0
@@ -208,10 +186,7 @@ class PartChoice:
 
 
 def parted_by_next(made: Sequence[PartChoice]) -> PartChoice:
-    """Return the choice that follows those that were made if the last one gives way to the next row of `PARTS_BY`.
-
-    Each row keeps the amount and the edits that it had last.
-    """
+    """Return the choice after a change to the next row of `PARTS_BY`. Each row keeps the amount and the edits that it had last."""
     rows = list(PARTS_BY)
     by = rows[(rows.index(made[-1].by) + 1) % len(rows)]
     last = next((choice for choice in reversed(made) if choice.by == by), PartChoice(made[0].amount, 0.0, by=by))
@@ -219,7 +194,6 @@ def parted_by_next(made: Sequence[PartChoice]) -> PartChoice:
 
 
 def edits_text(edits: Mapping[str, PartEdits]) -> str:
-    """Return the edits of several meshes as text, which `edits_of_text` reads."""
     return json.dumps(
         {
             name: {"kept": sorted(own.kept), "dropped": sorted(own.dropped), "parted": own.parted}

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams that become wires: with the fewest seeds whose wires run as they do, edge for edge, or with seeds that are given."""
+"""Seams that become wires, with the fewest seeds whose wires run as they do or with given seeds, and gaps in seams.
+
+In a gap a cut ends just before it meets another one, or a border: that keeps two islands from separating.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Generator, Iterable, Iterator
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +18,7 @@ from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS, by_number
 
 if TYPE_CHECKING:
+    import seamwire_core
     from numpy.typing import NDArray
 
     from ..network.picks import Edge
@@ -26,10 +31,7 @@ _SLICE = 0.005
 
 
 def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[list[int]]:
-    """Return seams, (k, 2) edges, as chains of vertices between those where they end or more than two meet.
-
-    Chains end at seeds as well. Closed ones end where they begin.
-    """
+    """Return seams, (k, 2), as chains of vertices between seeds, ends, and where more than two meet. Closed ones end where they begin."""
     return [chain.tolist() for chain in native.load().edge_chains(seams, list(seeds))]
 
 
@@ -94,7 +96,6 @@ def _reach(
 
 
 def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generator[None, None, tuple[int, int]]:
-    """Return how far a wire from the seed, without the edges before it, runs along a chain, and which of them does."""
     reached = begin + 1, 0
     # A wire does not end where it begins: around a circle there are two.
     last = len(chain) - (1 if begin == 0 and chain[0] == chain[-1] else 0)
@@ -110,3 +111,32 @@ def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generato
         if wanted in ways:
             reached = end, ways.index(wanted)
     return reached
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Where a cut ends, and the vertex that it nearly meets, with the shortest way there along edges and its length."""
+
+    end: int
+    target: int
+    length: float
+    path: tuple[int, ...] = field(default=(), compare=False)
+
+
+class GapFinder:
+    """Finds the gaps of a mesh's seams, see `seamwire_core.find_gaps`. `surface` returns its surface, on the thread that asks."""
+
+    def __init__(
+        self,
+        surface: Callable[[], seamwire_core.Surface],
+        partly_hidden: NDArray[np.int32] = np.empty((0, 2), dtype=np.int32),  # noqa: B008 - it is not changed
+    ) -> None:
+        self._surface, self._partly_hidden = surface, partly_hidden
+
+    def find(
+        self, seams: NDArray[np.int32], longest: float = 0.5, meant: Collection[int] = (), **options: float
+    ) -> list[Gap]:
+        """Find the gaps of seams, (k, 2), shortest first. The options are those of `find_gaps`."""
+        find, hidden = native.load().find_gaps, self._partly_hidden
+        found = find(self._surface(), seams, longest, meant=sorted(meant), partly_hidden=hidden, **options)
+        return [Gap(int(path[0]), int(path[-1]), length, tuple(path.tolist())) for path, length in found]

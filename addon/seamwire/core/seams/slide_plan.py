@@ -86,15 +86,25 @@ def plan(faces: SlidFaces, courses: Iterable[Course], fixed: Collection[int] = (
     for vertex in curves.keys() - staying:
         if _is_on_feature(faces, vertex):
             continue
-        move = _to(faces, vertex, evenly[vertex]) if len(curves[vertex]) == 1 else None
-        move = move or _onto(faces, vertex, curves[vertex])
-        if move is not None:
-            moves[vertex] = move
+        owners = [(polygon, row) for polygon in faces.at[vertex] for row in faces.rows_of(polygon)]
+        triangles = faces.triangles[[row for _, row in owners]]
+        corners, own = faces.points[triangles], curves[vertex]
+        found = _within(corners, evenly[vertex]) if len(own) == 1 else None
+        if found is None:
+            # The nearest point of the curve within the faces around the vertex, or where its curves cross.
+            place = faces.points[vertex]
+            for curve in own * (1 if len(own) == 1 else _ROUNDS):
+                found = _nearest_within(corners, place, curve)
+                if found is None:
+                    break
+                place = found[1] @ corners[found[0]]
+        if found is not None:
+            row, weights = found
+            moves[vertex] = Move(owners[row][0], tuple(triangles[row].tolist()), tuple(weights.tolist()))
     return _without_damage(faces, moves)
 
 
 def places(points: NDArray[np.float64], moves: Iterable[Move]) -> NDArray[np.float64]:
-    """Return where moves lead, (k, 3)."""
     return np.array([np.array(move.weights) @ points[list(move.corners)] for move in moves]).reshape(-1, 3)
 
 
@@ -132,30 +142,10 @@ def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[n
     return np.stack([np.interp(at, along, curve[:, axis]) for axis in range(3)], axis=1)
 
 
-def _to(faces: SlidFaces, vertex: int, place: NDArray[np.float64]) -> Move | None:
-    """Return the move of a vertex to a place on the faces around it; None where it does not lie there."""
-    owners = [(polygon, row) for polygon in faces.at[vertex] for row in faces.rows_of(polygon)]
-    triangles = faces.triangles[[row for _, row in owners]]
-    weights, off = barycentric(faces.points[triangles], place)
+def _within(corners: NDArray[np.float64], place: NDArray[np.float64]) -> tuple[int, NDArray[np.float64]] | None:
+    weights, off = barycentric(corners, place)
     best = int(np.argmin(off))
-    if off[best] > _ON:
-        return None
-    return Move(owners[best][0], tuple(triangles[best].tolist()), tuple(weights[best].tolist()))
-
-
-def _onto(faces: SlidFaces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
-    """Return the move of a vertex to the nearest point of its curve within the faces around it, or to where its curves cross."""
-    owners = [(polygon, row) for polygon in faces.at[vertex] for row in faces.rows_of(polygon)]
-    triangles = faces.triangles[[row for _, row in owners]]
-    corners, place, move = faces.points[triangles], faces.points[vertex], None
-    for curve in list(curves) * (1 if len(curves) == 1 else _ROUNDS):
-        found = _nearest_within(corners, place, curve)
-        if found is None:
-            return None
-        row, weights = found
-        place = weights @ corners[row]
-        move = Move(owners[row][0], tuple(triangles[row].tolist()), tuple(weights.tolist()))
-    return move
+    return (best, weights[best]) if off[best] <= _ON else None
 
 
 def _nearest_within(
@@ -166,11 +156,9 @@ def _nearest_within(
     reach = float(np.linalg.norm(corners - place, axis=2).max())
     near = np.flatnonzero(gap <= reach)
     for segment in near[np.argsort(gap[near], kind="stable")]:
-        on_curve = curve[segment] + part[segment] * (curve[segment + 1] - curve[segment])
-        weights, off = barycentric(corners, on_curve)
-        best = int(np.argmin(off))
-        if off[best] <= _ON:
-            return best, weights[best]
+        found = _within(corners, curve[segment] + part[segment] * (curve[segment + 1] - curve[segment]))
+        if found is not None:
+            return found
     return None
 
 
@@ -195,11 +183,7 @@ def _without_damage(faces: SlidFaces, moves: dict[int, Move]) -> dict[int, Move]
             move = moves.pop(vertex)
             moved[vertex] = faces.points[vertex]
             if halved[vertex] <= _HALVINGS:
-                moves[vertex] = _half_way(move, vertex)
+                weights = {corner: 0.5 * weight for corner, weight in zip(move.corners, move.weights, strict=True)}
+                weights[vertex] = weights.get(vertex, 0.0) + 0.5
+                moves[vertex] = Move(move.polygon, tuple(weights), tuple(weights.values()))
     return moves
-
-
-def _half_way(move: Move, vertex: int) -> Move:
-    weights = {corner: 0.5 * weight for corner, weight in zip(move.corners, move.weights, strict=True)}
-    weights[vertex] = weights.get(vertex, 0.0) + 0.5
-    return Move(move.polygon, tuple(weights), tuple(weights.values()))

@@ -19,7 +19,7 @@ from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import Stroke, for_library
 from ..network.symmetry import MirrorImages, Symmetry
-from ..offers.part_search import AMOUNTS
+from ..offers.edge_loops import AMOUNTS
 from ..seams.seam_wires import seam_chains, waiting, wires_along
 from ..solver.solver import Engines
 from .courses import Course, Courses

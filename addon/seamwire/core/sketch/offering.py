@@ -12,8 +12,7 @@ from ..network.network import Given, How, Snap, Sought
 from ..network.picks import FacePoint, pick_name, undirected
 from ..network.wires import Wire
 from ..offers.crests import CREST_KINDS
-from ..offers.edge_loops import EdgeLoops, taken
-from ..offers.part_search import PartSearch
+from ..offers.edge_loops import EdgeLoops, PartSearch, taken
 from ..offers.surface_loops import SurfaceLoops
 from .courses import Course, Search, patiently
 from .interaction import Begun, Edit, Interaction

@@ -222,7 +222,9 @@ class Wiring(Interaction):
         if not others:
             if self.finals and not self._is_reached:
                 raise Refused(f"No wire reaches {pick_name(self.target.pick)}: it is not connected to the seed")
-            raise Refused("same-edges" if self.is_final and self.active is not None else "no-next-candidate")
+            if self.is_final and self.active is not None:
+                raise Refused("All wires run along the same edges here")
+            raise Refused("No other candidate found yet")
         self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
         self._choose()
         if self.runs:

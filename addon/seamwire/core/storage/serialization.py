@@ -13,7 +13,7 @@ import binascii
 import hashlib
 import json
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -31,13 +31,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.picks import Edge, Pick
-    from ..network.strokes import ActsOn
 
 FORMAT = "seamwire"
 VERSION = 1
 WAS_SEAM = 1
 """A member of a label: the edge was a seam before a wire ran along it."""
 _FIRST_NUMBER = 16
+_FAST = 1
+"""zlib's level: most of a text is coordinates, which hardly get shorter, and all of it is written after each chain."""
 _TOLERANCE = 1e-4
 """How far a vertex may have moved and still be found by its place, as part of the mesh's size."""
 
@@ -67,11 +68,9 @@ class Places:
 
     @cached_property
     def in_object(self) -> NDArray[np.float64]:
-        """(n, 3) in object coordinates."""
         return self.points @ self.to_object.T
 
     def from_object(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return places in object coordinates, (k, 3), as sessions have them."""
         return places @ np.linalg.inv(self.to_object).T
 
     @property
@@ -93,19 +92,13 @@ class Archive:
 
     A label stands for its members: the number of a wire along the edge, its negative for an image of the wire, the number of a stroke
     that begins there, or `WAS_SEAM`. One with a single member is that number itself.
-
-    Attributes
-    ----------
-    size
-        How many bytes the records of wires and strokes take as text.
     """
 
     def __init__(self) -> None:
-        self.size = 0
+        self.size = 0  # bytes that all records take as text
         self.wires: dict[int, Record] = {}
         self.strokes: dict[int, Record] = {}
         self._sets: dict[int, tuple[int, ...]] = {}
-        self._blocks: dict[int, _Block] = {}  # of the records of wires and strokes that were written
 
     @property
     def _kinds(self) -> dict[str, dict[int, Any]]:
@@ -142,32 +135,16 @@ class Archive:
         """Write what some labels stand for; an empty string where they stand for nothing."""
         used = set(labels)
         used |= {abs(member) for label in used for member in self.members(label)}
-        blocks, is_empty = [], True
-        for name, kind in self._kinds.items():
-            own = [self._block(number, kind) for number in sorted(used & kind.keys())]
-            blocks.append(_Block.of(f'{"," if blocks else "{"}"{name}":{{'))
-            # A comma before each record but the first.
-            blocks += [block for each in own for block in (_COMMA, each)][1:]
-            blocks.append(_CLOSED)
-            is_empty = is_empty and not own
-        if is_empty:
+        kinds = {
+            name: {number: kind[number] for number in sorted(used & kind.keys())} for name, kind in self._kinds.items()
+        }
+        if not any(kinds.values()):
             return ""
-        blocks.append(_CLOSED)
-        return f"{FORMAT} {VERSION} {base64.b64encode(_zipped(blocks)).decode()}"
-
-    def _block(self, number: int, kind: dict[int, Any]) -> _Block:
-        """Return a record with its number, zipped. It is zipped once, because it never changes."""
-        if kind is self._sets:
-            return _Block.of(_line(number, kind[number]))
-        if number not in self._blocks:
-            self._blocks[number] = _Block.of(_line(number, kind[number]))
-        return self._blocks[number]
+        plain = json.dumps(kinds, separators=(",", ":")).encode()
+        return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(plain, _FAST)).decode()}"
 
     def merge(self, other: Archive) -> bool:
-        """Take in the records of another archive.
-
-        Returns False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
-        """
+        """Take in the records of another archive, unless a number stands for something else there: labels would change what they mean."""
         pairs = [(own, other._kinds[name]) for name, own in self._kinds.items()]
         if any(self._is_taken(number, own, what) for own, more in pairs for number, what in more.items()):
             return False
@@ -177,7 +154,6 @@ class Archive:
         return True
 
     def _is_taken(self, number: int, kind: dict[int, Any], what: object) -> bool:
-        """Return whether a number stands for something else than a record of a kind."""
         return any(number in own and (own is not kind or own[number] != what) for own in self._kinds.values())
 
     def newest(self, most: int) -> Archive:
@@ -195,14 +171,12 @@ class Archive:
         return kept
 
     def knows(self, label: int) -> bool:
-        """Whether what a label stands for is here."""
         return all(
             member == WAS_SEAM or abs(member) in self.wires or abs(member) in self.strokes
             for member in self.members(label)
         )
 
     def members(self, label: int) -> tuple[int, ...]:
-        """Return what a label stands for."""
         return self._sets.get(label, (label,))
 
     def label_of(self, members: Iterable[int]) -> int:
@@ -213,7 +187,6 @@ class Archive:
         return self.add(self._sets, wanted)
 
     def add(self, kind: dict[int, Any], what: object) -> int:
-        """Add a record to `wires` or `strokes`, and return its number."""
         digest = hashlib.blake2b(json.dumps(what, sort_keys=True).encode(), digest_size=4).digest()
         number = max(int.from_bytes(digest, "big") & 0x7FFFFFFF, _FIRST_NUMBER)
         while self._is_taken(number, kind, what):
@@ -224,40 +197,11 @@ class Archive:
         return number
 
 
-@dataclass(frozen=True)
-class _Block:
-    """A part of a text, and the same part zipped so that it can stand anywhere in a stream."""
-
-    plain: bytes
-    zipped: bytes
-
-    @classmethod
-    def of(cls, text: str) -> _Block:
-        deflate = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
-        plain = text.encode()
-        return cls(plain, deflate.compress(plain) + deflate.flush(zlib.Z_SYNC_FLUSH))
-
-
-_COMMA, _CLOSED = _Block.of(","), _Block.of("}")
-
-
-def _line(number: int, what: object) -> str:
-    return f'"{number}":{json.dumps(what, separators=(",", ":"))}'
-
-
-def _zipped(blocks: Iterable[_Block]) -> bytes:
-    """Join blocks to one stream, as `zlib.decompress` reads it: a header, the blocks, an empty last block, and the checksum."""
-    blocks = list(blocks)
-    checksum = zlib.adler32(b"".join(block.plain for block in blocks))
-    return b"".join((b"\x78\xda", *(block.zipped for block in blocks), b"\x03\x00", checksum.to_bytes(4, "big")))
-
-
 def _size(what: object) -> int:
     return len(json.dumps(what))
 
 
 def _number(text: str) -> int:
-    """Return the number of a record. Raise ValueError if it is not a number."""
     number = int(text)
     if not _FIRST_NUMBER <= number <= 0x7FFFFFFF:
         raise ValueError
@@ -268,15 +212,18 @@ def _number(text: str) -> int:
 
 
 def wire_record(wire: Wire, where: Places) -> Record:
-    """Return what there is to keep of a wire that is not closed or is, by the numbers its vertices have now."""
-    places = where.in_object
-    chain = list(wire.vertices)
+    """Return what there is to keep of a wire, by the numbers its vertices have now.
+
+    Seams end at vertices, so a point inside a triangle is known only until they are marked.
+    """
+    places, chain = where.in_object, list(wire.vertices)
+    start, end = (pick.vertex if isinstance(pick, FacePoint) else pick for pick in (wire.start, wire.end))
     record: Record = {
         "along": wire.along,
         "vertices": chain,
         "ends": places[[chain[0], chain[1] if wire.closed else chain[-1]]].astype(np.float32).tolist(),
-        "start": _stored(wire.start),
-        "end": _stored(wire.end),
+        "start": start,
+        "end": end,
         "closed": wire.closed,
         "heading": wire.heading,
         "follow": wire.follow,
@@ -331,26 +278,11 @@ def checked_wire(record: Record) -> Record:
     return record
 
 
-def _stored(pick: Pick) -> int | tuple[int, int]:
-    """Return a pick as it is stored: seams end at vertices, so a point inside a triangle is known only until they are marked."""
-    return pick.vertex if isinstance(pick, FacePoint) else pick
-
-
 def pick_of(stored: int | list[int]) -> Pick:
     if isinstance(stored, list):
         one, two = stored
         return int(one), int(two)
     return int(stored)
-
-
-def _stored_curve(record: Record, vertices: tuple[int, ...], where: Places) -> NDArray[np.float64] | None:
-    """Return the curve of a wire across the surface where its vertices have not moved, as `Wire.points` are; else None."""
-    if record["along"] != "SURFACE":
-        return None
-    before, now = unpacked(record["places"]), where.in_object[list(vertices)]
-    if before.shape != now.shape or np.abs(before - now).max(initial=0.0) > where.tolerance:
-        return None
-    return where.from_object(unpacked(record["curve"]))
 
 
 def _stored_faces(record: Record) -> NDArray[np.int32] | None:
@@ -366,18 +298,23 @@ def _stored_faces(record: Record) -> NDArray[np.int32] | None:
 def wire_of(record: Record, where: Places, vertices: tuple[int, ...] = ()) -> Wire:
     """Return the wire of a record that was checked; its mirror images are to be found.
 
-    `vertices` are those that it has now. Without them, it is on the mesh that it was made on, by the same numbers.
+    `vertices` are those that it has now. Without them, it is on the mesh that it was made on, by the same numbers. Across the surface it
+    has its curve where they have not moved, otherwise it runs along edges.
     """
     vertices, closed = vertices or tuple(record["vertices"]), record["closed"]
-    curve = _stored_curve(record, vertices, where)
+    points, faces = where.points[list(vertices + vertices[:1] if closed else vertices)], None
+    if record["along"] == "SURFACE":
+        before, now = unpacked(record["places"]), where.in_object[list(vertices)]
+        if before.shape == now.shape and np.abs(before - now).max(initial=0.0) <= where.tolerance:
+            points, faces = where.from_object(unpacked(record["curve"])), _stored_faces(record)
     is_loop = record.get("kind") in LOOP_KINDS
     return Wire(
         record["along"],
         vertices,
-        where.points[list(vertices + vertices[:1] if closed else vertices)] if curve is None else curve,
+        points,
         pick_of(record["start"]),
         pick_of(record["end"]),
-        None if curve is None else _stored_faces(record),
+        faces,
         closed=closed,
         mirror=tuple(record["mirror"]),
         heading=None if record["heading"] is None else pick_of(record["heading"]),
@@ -391,7 +328,6 @@ def wire_of(record: Record, where: Places, vertices: tuple[int, ...] = ()) -> Wi
 
 
 def packed(points: NDArray[np.float64]) -> str:
-    """Write (k, 3) points in single precision."""
     return base64.b64encode(np.ascontiguousarray(points, dtype="<f4").tobytes()).decode()
 
 
@@ -439,29 +375,25 @@ def stored_stroke(record: Record, where: Places, begins: Iterable[Edge]) -> Stro
         )
         mapped = _matched(numbers, unpacked(record["places"]), where, same_numbers)
         number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
-        return _stroke_of(record, where.from_object(unpacked(record["points"])), number_of)
+        points = where.from_object(unpacked(record["points"]))
+        stored = np.array(record["corners"], dtype=np.int64).reshape(len(points), 3)
+        acts_on, eta, rings = record["acts_on"], float(record["eta"]), int(record["rings"])
+        radius = None if record["radius"] is None else float(record["radius"])
+        is_sound = 1.0 <= eta < np.inf and rings >= 1 and (radius is None or 0 < radius < np.inf)
+        if not is_sound or not np.isfinite(points).all() or acts_on not in {"both", *FOLLOWS}:
+            return None
+        corners = np.array([[number_of[vertex] for vertex in triple] for triple in stored.tolist()], dtype=np.int32)
+        corners = corners.reshape(-1, 3)
+        there = (corners >= 0).all(axis=1)
+        borders = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8)))
+        runs = zip(borders[::2], borders[1::2], strict=True)
+        begin, end = max(runs, key=lambda run: run[1] - run[0], default=(0, 0))
+        if end - begin < 2:
+            return None
+        rows, faces = slice(begin, end), np.full(end - begin, -1, dtype=np.int32)
+        return Stroke(points[rows], corners[rows], faces, bool(record["attracts"]), acts_on, eta, rings, radius)
     except DAMAGED:
         return None
-
-
-def _stroke_of(item: Record, points: NDArray[np.float64], number_of: Mapping[int, int]) -> Stroke | None:
-    """Return a stroke through those of its points whose vertices are there, as much of it as is in one piece. Raises if it is damaged."""
-    stored = np.array(item["corners"], dtype=np.int64).reshape(len(points), 3)
-    acts_on: ActsOn = item["acts_on"]
-    eta, rings = float(item["eta"]), int(item["rings"])
-    radius = None if item["radius"] is None else float(item["radius"])
-    sound = np.isfinite(points).all() and 1.0 <= eta < np.inf and rings >= 1 and (radius is None or 0 < radius < np.inf)
-    if not sound or acts_on not in {"both", *FOLLOWS}:
-        raise ValueError
-    corners = np.array([[number_of[vertex] for vertex in triple] for triple in stored.tolist()], dtype=np.int32)
-    corners = corners.reshape(-1, 3)
-    there = (corners >= 0).all(axis=1)
-    borders = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8)))
-    begin, end = max(zip(borders[::2], borders[1::2], strict=True), key=lambda run: run[1] - run[0], default=(0, 0))
-    if end - begin < 2:
-        return None
-    faces = np.full(end - begin, -1, dtype=np.int32)
-    return Stroke(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
 
 
 def _matched(

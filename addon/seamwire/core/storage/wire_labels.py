@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.components import groups
+from ..base.geometry import groups
 from ..network.drawn import Drawn
 from ..network.picks import undirected
 from ..network.wires import LOOP_KINDS
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.picks import Edge, End, Pick
-    from ..network.strokes import Stroke
     from ..network.wires import Wire
 
 Claim = tuple["Edge", int]
@@ -46,7 +45,6 @@ class EdgeLabels:
 
     @cached_property
     def edges(self) -> list[Edge]:
-        """The edges, smaller vertex first."""
         return list(map(tuple, np.sort(self.pairs, axis=1).tolist()))
 
     @classmethod
@@ -96,18 +94,8 @@ def plan(
 ) -> Plan:
     """Return what a mesh's edges must be for a network; all that it does not know of stays.
 
-    Parameters
-    ----------
-    network
-        Of a session that began with `found`, or went on from it.
-    marks
-        The labels that the mesh has.
-    archive
-        Where new records go.
-    is_seam
-        Whether an edge is a seam now.
-    edges
-        (e, 2) the visible edges.
+    The network is that of a session that began with `found`, or went on from it. `marks` are the labels that the mesh has, `is_seam` tells
+    what is a seam now, and `edges`, (e, 2), are the visible edges. New records go to the archive.
     """
     wires, after, cleared, rest = _asked_for(network, archive, places, edges)
     known = frozenset((edge, member) for edge, members in after.items() for member in members)
@@ -170,16 +158,12 @@ def _asked_for(
         wires.append(replace(wire, stored=number, images=images))
     for order, stroke in enumerate(network.strokes):
         number = archive.add(archive.strokes, serialization.stroke_record(stroke, places, order))
-        for edge in _beginning(stroke, edges):
-            after[edge].add(number)
+        corners = set(stroke.corners[0].tolist())
+        near = edges[np.isin(edges, list(corners)).any(axis=1)].tolist()
+        inside = [pair for pair in near if corners.issuperset(pair)] if len(corners) > 1 else []
+        for pair in inside or near[:1]:
+            after[undirected(tuple(pair))].add(number)
     return tuple(wires), after, cleared, rest
-
-
-def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> list[Edge]:
-    corners = set(stroke.corners[0].tolist())
-    near = edges[np.isin(edges, list(corners)).any(axis=1)]
-    inside = [pair for pair in near.tolist() if corners.issuperset(pair)] if len(corners) > 1 else []
-    return [undirected(tuple(pair)) for pair in inside or near[:1].tolist()]
 
 
 def seams_beside(
@@ -199,7 +183,6 @@ def seams_beside(
 
 
 def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
-    """Return what labels tell of."""
     if not len(marks.labels):
         return Found()
     rows_of: dict[int, list[int]] = {}
@@ -227,27 +210,20 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
                 there = tuple(edge for edge in share if edge in seams)
                 pieces.append(_Piece(number, archive.wires[number], chain, there))
     strokes = []
+    orders = {number: archive.strokes[number].get("order") for number in archive.strokes.keys() & rows_of.keys()}
     # Where strokes cross, the later one counts.
-    for number in sorted(archive.strokes.keys() & rows_of.keys(), key=lambda one: (_order(archive.strokes[one]), one)):
+    for number in sorted(orders, key=lambda one: (orders[one] if type(orders[one]) is int else 0, one)):
         begins = [edges[row] for row in rows_of[number]]
         stroke = serialization.stored_stroke(archive.strokes[number], places, begins)
         known.update((edge, number) for edge in begins)
         if stroke is not None:
             strokes.append(stroke)
-    wires = _Wires(pieces, set(edges), places).all()
+    wires = _wires_of(pieces, set(edges), places)
     return Found(Drawn(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken))
 
 
-def _order(record: Record) -> int:
-    order = record.get("order")
-    return order if type(order) is int else 0
-
-
 def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
-    """Return which edges of images belong to each of a wire's copies.
-
-    Copies have larger vertices than what they were made of, hence come in its order.
-    """
+    """Return which edges of images belong to each of a wire's copies, which have larger vertices than what they were made of."""
     if count < 2 or len(images) % count:
         return [images, *([] for _ in range(count - 1))]
     size = len(images) // count
@@ -256,8 +232,6 @@ def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """A chain of edges that a wire's number stands on."""
-
     number: int
     record: Record
     vertices: tuple[int, ...]
@@ -270,11 +244,53 @@ class _Piece:
 
     @cached_property
     def numbers(self) -> dict[int, int]:
-        """The numbers that its stored vertices have now."""
         stored = self.record["vertices"]
         if self.unchanged:
             return dict(zip(stored, self.vertices, strict=True))
         return {} if self.record["closed"] else {stored[0]: self.vertices[0], stored[-1]: self.vertices[-1]}
+
+    def stored(self, name: str) -> Pick:
+        return serialization.pick_of(self.record[name])
+
+    def edge_now(self, stored: Edge, edges: set[Edge]) -> Edge | None:
+        one, two = map(self.numbers.get, stored)
+        return None if one is None or two is None or undirected((one, two)) not in edges else (one, two)
+
+    def pick(self, name: End, end: int, edges: set[Edge]) -> Pick:
+        stored, before = self.stored(name), self.record["vertices"]
+        if not isinstance(stored, tuple):
+            return self.numbers.get(stored, end)
+        if tuple(before) == self.vertices and end in stored and undirected(stored) in edges:
+            return stored
+        found = self.edge_now(stored, edges)
+        if found is not None and end in found:
+            return found
+        at = slice(2) if name == "start" else slice(-2, None)
+        is_cut = not self.unchanged and not self.record["closed"]
+        return self.vertices[at] if is_cut and undirected(stored) == undirected(tuple(before[at])) else end
+
+    def wire(self, edges: set[Edge], places: Places) -> Wire:
+        """Return the wire with its own seeds, and without a heading. `edges` are all that have labels."""
+        wire = serialization.wire_of(self.record, places, self.vertices)
+        through = None
+        if self.record.get("kind") in LOOP_KINDS and self.unchanged:
+            through = undirected(self.edge_now(self.stored("through"), edges))
+        if wire.closed and through is not None:
+            start = end = through
+        else:
+            last = wire.vertices[0] if wire.closed else wire.vertices[-1]
+            start, end = self.pick("start", wire.vertices[0], edges), self.pick("end", last, edges)
+        return replace(
+            wire,
+            start=start,
+            end=end,
+            heading=None,
+            images=self.images,
+            kind=None if through is None else wire.kind,
+            through=through,
+            # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.
+            stored=self.number if self.unchanged else 0,
+        )
 
 
 def _chain(part: list[Edge], record: Record, places: Places) -> tuple[int, ...] | None:
@@ -293,10 +309,7 @@ def _chain(part: list[Edge], record: Record, places: Places) -> tuple[int, ...] 
 
 
 def _trail(edges: list[Edge], closed: bool) -> list[int] | None:
-    """Return the vertices along all of some edges, each run along once; None: they are no such trail.
-
-    Where it touches itself there are several: any of them marks the same edges.
-    """
+    """Return the vertices along all of some edges, each run along once; None: they are no such trail."""
     around: dict[int, list[Edge]] = {}
     for edge in edges:
         for vertex in edge:
@@ -343,7 +356,6 @@ def _directed(trail: list[int], record: Record, where: Places) -> tuple[int, ...
 
 
 def _ranks(vertices: Iterable[int]) -> NDArray[np.int64]:
-    """Return which of the vertices each is when they are sorted."""
     return np.unique(np.array(list(vertices)), return_inverse=True)[1]
 
 
@@ -364,102 +376,50 @@ def _as_placed(
     return trail if forth <= back else trail[::-1]
 
 
-class _Wires:
-    """Wires made of pieces; their seeds are found among all of them, for a wire may begin on the last edge of another."""
+def _wires_of(pieces: list[_Piece], edges: set[Edge], places: Places) -> tuple[Wire, ...]:
+    """Return wires made of pieces. A wire may begin on the last edge of another, so seeds are found among all pieces."""
+    beside: dict[int, list[int]] = {}  # the rows of the pieces with each vertex
+    for row, piece in enumerate(pieces):
+        for vertex in set(piece.vertices):
+            beside.setdefault(vertex, []).append(row)
+    wires = [piece.wire(edges, places) for piece in pieces]
+    wires = [_with_shared_seeds(piece, wire, pieces, wires, beside) for piece, wire in zip(pieces, wires, strict=True)]
 
-    def __init__(self, pieces: list[_Piece], edges: set[Edge], places: Places) -> None:
-        self._pieces, self._edges, self._places = pieces, edges, places
-        self._beside: dict[int, list[int]] = {}
-        """The pieces with each vertex, by their places in the list."""
-        for row, piece in enumerate(pieces):
-            for vertex in set(piece.vertices):
-                self._beside.setdefault(vertex, []).append(row)
-
-    def all(self) -> tuple[Wire, ...]:
-        wires = [self._wire(piece) for piece in self._pieces]
-        wires = [self._with_shared_seeds(row, wires) for row in range(len(wires))]
-        return tuple(
-            replace(wire, heading=self._heading(row, wires)) if self._pieces[row].record["heading"] else wire
-            for row, wire in enumerate(wires)
-        )
-
-    def _wire(self, piece: _Piece) -> Wire:
-        wire = serialization.wire_of(piece.record, self._places, piece.vertices)
-        through = self._through(piece)
-        start, end = self._pick(piece, "start", wire.vertices[0]), self._pick(piece, "end", wire.vertices[-1])
-        if wire.closed:
-            start, end = (through, through) if through else (start, self._pick(piece, "end", wire.vertices[0]))
-        return replace(
-            wire,
-            start=start,
-            end=end,
-            heading=None,
-            images=piece.images,
-            kind=None if through is None else wire.kind,
-            through=through,
-            # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.
-            stored=piece.number if piece.unchanged else 0,
-        )
-
-    def _through(self, piece: _Piece) -> Edge | None:
-        if piece.record.get("kind") not in LOOP_KINDS or not piece.unchanged:
-            return None
-        return undirected(self._edge_now(piece, serialization.pick_of(piece.record["through"])))
-
-    def _edge_now(self, piece: _Piece, stored: Edge) -> Edge | None:
-        """Return a stored edge by the numbers of one piece, or None if it has no label."""
-        one, two = map(piece.numbers.get, stored)
-        return None if one is None or two is None or undirected((one, two)) not in self._edges else (one, two)
-
-    def _pick(self, piece: _Piece, name: End, end: int) -> Pick:
-        """Return the seed at one end of a piece; the vertex where it ends, if the seed cannot be found."""
-        stored = serialization.pick_of(piece.record[name])
-        if not isinstance(stored, tuple):
-            return piece.numbers.get(stored, end)
-        if tuple(piece.record["vertices"]) == piece.vertices and end in stored and undirected(stored) in self._edges:
-            return stored
-        found = self._edge_now(piece, stored)
-        if found is not None and end in found:
-            return found
-        if not piece.unchanged and not piece.record["closed"]:
-            at = slice(2) if name == "start" else slice(-2, None)
-            if undirected(stored) == undirected(tuple(piece.record["vertices"][at])):
-                return piece.vertices[at]
-        return end
-
-    def _with_shared_seeds(self, row: int, wires: list[Wire]) -> Wire:
-        """Return a wire with the seeds that others have at its ends, where it had the same and did not find them.
-
-        An edge where two wires meet lies on one of them, and the records of both may be of different times.
-        """
-        wire, record = wires[row], self._pieces[row].record
-        names: tuple[End, End] = ("start", "end")
-        for name in names:
-            vertex, stored = getattr(wire, name), serialization.pick_of(record[name])
-            if isinstance(vertex, tuple) or not isinstance(stored, tuple):
-                continue
-            for other in self._beside.get(vertex, []):
-                for end in names:
-                    seed = getattr(wires[other], end)
-                    before = serialization.pick_of(self._pieces[other].record[end])
-                    goes_on = (name, end) == ("start", "end") and record["heading"]
-                    if (
-                        isinstance(seed, tuple)
-                        and vertex in seed
-                        and (undirected(before) == undirected(stored) or goes_on)
-                    ):
-                        wire = replace(wire, **{name: seed})
-        return wire
-
-    def _heading(self, row: int, wires: list[Wire]) -> Edge | None:
+    def heading(row: int) -> Edge | None:
         """Return the last edge of the wire that one goes on from: of several, that which its record tells of."""
-        wire, stored = wires[row], serialization.pick_of(self._pieces[row].record["heading"])
+        wire, stored = wires[row], pieces[row].stored("heading")
         found = [
-            (tuple(self._pieces[other].record["vertices"][-2:]) != stored, wires[other].last_edge)
-            for other in self._beside.get(wire.vertices[0], [])
+            (tuple(pieces[other].record["vertices"][-2:]) != stored, wires[other].last_edge)
+            for other in beside.get(wire.vertices[0], [])
             if other != row
             and not wires[other].closed
             and undirected(wires[other].end) == undirected(wire.start)
             and wires[other].vertices[-1] == wire.vertices[0]
         ]
         return min(found)[1] if found else None
+
+    rows = enumerate(zip(pieces, wires, strict=True))
+    return tuple(
+        replace(wire, heading=heading(row)) if piece.record["heading"] else wire for row, (piece, wire) in rows
+    )
+
+
+def _with_shared_seeds(
+    piece: _Piece, wire: Wire, pieces: list[_Piece], wires: list[Wire], beside: dict[int, list[int]]
+) -> Wire:
+    """Return a wire with the seeds that others have at its ends, where it had the same and did not find them.
+
+    An edge where two wires meet lies on one of them, and the records of both may be of different times.
+    """
+    names: tuple[End, End] = ("start", "end")
+    for name in names:
+        vertex, stored = getattr(wire, name), piece.stored(name)
+        if isinstance(vertex, tuple) or not isinstance(stored, tuple):
+            continue
+        for other, end in itertools.product(beside.get(vertex, []), names):
+            seed = getattr(wires[other], end)
+            was_same = undirected(pieces[other].stored(end)) == undirected(stored)
+            goes_on = (name, end) == ("start", "end") and piece.record["heading"]
+            if isinstance(seed, tuple) and vertex in seed and (was_same or goes_on):
+                wire = replace(wire, **{name: seed})
+    return wire

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.base.triangulation import without_flat_triangles
+from seamwire.core.base.geometry import without_flat_triangles
 
 
 def areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:

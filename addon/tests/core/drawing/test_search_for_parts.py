@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import session_on
-from seamwire.core.offers.part_search import AMOUNTS
+from seamwire.core.offers.edge_loops import AMOUNTS
 from seamwire.core.sketch.sketch import Sketch
 
 SIZE = 9

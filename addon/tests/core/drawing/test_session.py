@@ -57,6 +57,19 @@ def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     assert session.picture.active.vertices == (8, 9, 15), "the next wire is the shorter one again"
 
 
+def test_where_no_other_wire_comes_forward_the_reason_is_said() -> None:
+    session = Table().session
+    session.click(0)
+    session.hover(1)
+    assert not session.next_candidate()
+    assert session.reason == "All wires run along the same edges here"
+    session = Table(ready=(False, False, False)).session
+    session.click(0)
+    session.hover(14)
+    assert not session.next_candidate()
+    assert session.reason == "No other candidate found yet"
+
+
 def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
     table = Table()
     session = table.session

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.islands.map_faults import MappedSurface
-from seamwire.core.islands.square_use import CostlyIsland, MapInScene, square_use
+from seamwire.core.islands.uv_maps import CostlyIsland, MappedSurface, square_use
 
 TILE = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]])
 
@@ -16,14 +15,14 @@ def tile(size: tuple[float, float], at: tuple[float, float] = (0.0, 0.0)) -> np.
     return TILE * size + at
 
 
-def in_map(*islands: np.ndarray, name: str = "Shirt", turn: np.ndarray | None = None) -> MapInScene:
+def in_map(*islands: np.ndarray, name: str = "Shirt", turn: np.ndarray | None = None) -> MappedSurface:
     """Return islands, (t, 3, 2) each, whose faces lie on the model as in the map, in the plane of x and y."""
     uvs = np.concatenate(islands)
     points = np.concatenate([uvs.reshape(-1, 2), np.zeros((3 * len(uvs), 1))], axis=1)
     triangles = np.arange(len(points), dtype=np.int32).reshape(-1, 3)
     labels = np.repeat(np.arange(len(islands)), [len(each) for each in islands]).astype(np.int32)
-    surface = MappedSurface(points, triangles, labels, uvs, np.empty((0, 2), dtype=np.int32))
-    return MapInScene(name, surface, np.eye(3) if turn is None else turn)
+    edges = np.empty((0, 2), dtype=np.int32)
+    return MappedSurface(points, triangles, labels, uvs, edges, name, np.eye(3) if turn is None else turn)
 
 
 FRAME = np.concatenate([tile((0.9, 0.05)), tile((0.05, 0.85), (0.0, 0.05))])

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_points
-from seamwire.core.islands.stretch import Stretch
+from seamwire.core.islands.uv_maps import Stretch
 
 LIMIT = 5.0
 

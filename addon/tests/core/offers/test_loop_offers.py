@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 from fake_live import FakeLive, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.offers import part_search
-from seamwire.core.offers.edge_loops import EdgeLoops
-from seamwire.core.offers.part_search import PartSearch
+from seamwire.core.offers import edge_loops
+from seamwire.core.offers.edge_loops import EdgeLoops, PartSearch
 from seamwire.core.sketch.sketch import Sketch
 from table import SIZE, Table
 
@@ -56,7 +55,7 @@ def test_borders_of_parts_are_offered_last() -> None:
 def test_loops_do_not_wait_for_parts_and_a_motion_of_the_mouse_shows_parts_that_are_known_since(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(part_search, "AT_ONCE", 0)
+    monkeypatch.setattr(edge_loops, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     own = sketch(halves(go_on))
     own.hover(edge, loop=True)
@@ -75,7 +74,7 @@ def test_loops_do_not_wait_for_parts_and_a_motion_of_the_mouse_shows_parts_that_
 
 
 def test_who_waits_for_the_offers_gets_the_parts_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(part_search, "AT_ONCE", 0)
+    monkeypatch.setattr(edge_loops, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     own = sketch(halves(go_on))
     own.hover(edge, loop=True)
@@ -87,7 +86,7 @@ def test_who_waits_for_the_offers_gets_the_parts_too(monkeypatch: pytest.MonkeyP
 
 
 def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(part_search, "AT_ONCE", 0)
+    monkeypatch.setattr(edge_loops, "AT_ONCE", 0)
     edge, searches, ended = (2, 2 + SIZE), [], threading.Event()
 
     def find(_: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:

@@ -12,8 +12,8 @@ import pytest
 from fake_live import FakeLive, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.base.refused import Refused
-from seamwire.core.offers import part_search
-from seamwire.core.offers.part_search import PartSearch
+from seamwire.core.offers import edge_loops
+from seamwire.core.offers.edge_loops import PartSearch
 
 SIZE = 6
 """Vertices along a side of the plate; vertex SIZE * row + column."""
@@ -22,7 +22,7 @@ BORDER = (2, 2 + SIZE)
 
 
 def search(
-    find_parts: Callable[..., object] = lambda *_: (), seams: Callable[..., object] = lambda: part_search.NO_SEAMS
+    find_parts: Callable[..., object] = lambda *_: (), seams: Callable[..., object] = lambda: edge_loops.NO_SEAMS
 ) -> PartSearch:
     return PartSearch(lambda: FakeLive(SIZE), 2 * (SIZE - 1) ** 2, seams, find_parts)
 
@@ -55,7 +55,7 @@ def test_parts_are_found_anew_only_with_other_seams() -> None:
 
 
 def test_a_search_that_was_stopped_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(part_search, "AT_ONCE", 0)
+    monkeypatch.setattr(edge_loops, "AT_ONCE", 0)
     begun, counts = threading.Event(), []
 
     def find(_: object, goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
@@ -84,7 +84,7 @@ def test_an_error_ends_the_preparation_with_its_reason(at_once: bool, monkeypatc
     def fail(_: FakeLive) -> None:
         raise MemoryError("too large")
 
-    monkeypatch.setattr(part_search, "AT_ONCE", 5_000 if at_once else 0)
+    monkeypatch.setattr(edge_loops, "AT_ONCE", 5_000 if at_once else 0)
     parts = search()
     with monkeypatch.context() as broken:
         broken.setattr(FakeLive, "wait_for_surface", fail)

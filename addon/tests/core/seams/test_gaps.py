@@ -10,7 +10,7 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.islands.islands import IslandMaker
-from seamwire.core.seams.gaps import Gap, GapFinder
+from seamwire.core.seams.seam_wires import Gap, GapFinder
 
 SIZE = 9
 ROW = tuple(range(36, 45))

@@ -8,9 +8,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from seamwire.core.base.geometry import length_of
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.seams.seam_plan import (
-    curves_length,
     cut_edges,
     energy_of,
     keep_out,
@@ -72,9 +72,8 @@ def test_wires_of_a_plan_have_the_coordinates_of_the_session() -> None:
 
 def test_the_length_and_the_cuts_of_a_plan() -> None:
     plan = SimpleNamespace(wires=[planned(0, 1, 2), planned(2, 11)])
-    curves = [wire.points for wire in plan.wires]
-    assert curves_length(curves, np.eye(3)) == pytest.approx(3.0)
-    assert curves_length(curves, np.diag([2.0, 5.0, 1.0])) == pytest.approx(9.0)
+    assert sum(length_of(wire.points) for wire in plan.wires) == pytest.approx(3.0)
+    assert sum(length_of(wire.points * (2.0, 5.0, 1.0)) for wire in plan.wires) == pytest.approx(9.0)
     seams = np.array([(30, 31)], dtype=np.int32)
     assert cut_edges(plan, seams).tolist() == [[30, 31], [0, 1], [1, 2], [2, 11]]
     assert cut_edges(SimpleNamespace(wires=[]), seams[:0]).shape == (0, 2)

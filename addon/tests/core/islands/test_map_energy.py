@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from seamwire.core.islands.map_faults import MappedSurface
+from seamwire.core.islands.uv_maps import MappedSurface
 
 
 def test_the_energy_is_that_of_the_map_on_its_image() -> None:
