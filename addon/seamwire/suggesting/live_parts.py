@@ -18,7 +18,7 @@ from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch
 from ..tool import keymaps
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
-from ..words.corner import FoundMap, rows_of_parts
+from ..words.hints import FoundMap, rows_of_parts
 from ..words.keys import MODIFIER_KEYS, Action
 from ..words.reports import parts_text
 
