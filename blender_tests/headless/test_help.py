@@ -8,7 +8,7 @@ import pytest
 from seamwire.mesh.settings import preferences
 from seamwire.tool import keymaps
 from seamwire.ui import menus as panel
-from seamwire.words import corner as words
+from seamwire.words import hints as words
 from seamwire.words.keys import Action, Bindings
 
 

@@ -14,7 +14,7 @@ from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import steps
 from seamwire.tool import keymaps
 from seamwire.view.edited_objects import edited
-from seamwire.words import corner
+from seamwire.words import hints as corner
 
 
 def nothing_else_changed(desk: Desk) -> None:

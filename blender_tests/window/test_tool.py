@@ -14,7 +14,7 @@ from seamwire.tool import draw
 from seamwire.tool.running import chains as running
 from seamwire.view.edited_objects import edited
 from seamwire.view.viewport import place_in
-from seamwire.words import corner
+from seamwire.words import hints as corner
 
 
 def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:

@@ -18,9 +18,9 @@ from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch
 from ..tool import keymaps
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
-from ..words.corner import FoundMap, rows_of_parts
+from ..words.hints import FoundMap, rows_of_parts
 from ..words.keys import MODIFIER_KEYS, Action
-from ..words.reports import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
+from ..words.reports import parts_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -121,7 +121,8 @@ class LiveParts:
 
     @property
     def hints(self) -> Sequence[str]:
-        return () if self.is_kept else LIVE_HINTS
+        """The artist's choices, without those that the corner of the view has."""
+        return () if self.is_kept else ("Click Border: Drop or Keep", "Click Part: Cut", "Ctrl Z: Undo", "Enter: Keep")
 
     def plan(self, progress: Progress) -> None:
         """Wait until the hand rests, then plan, unless it is done. Give up as soon as the parts have changed."""
@@ -194,7 +195,7 @@ class LiveParts:
             self._tell()
             return set(_TAKEN)
         if place is not None and not keymaps.is_for_blender(event, context) and event.type not in MODIFIER_KEYS:
-            self._say(OTHER_KEY)
+            self._say("Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here")
             self._tell()
         return set()
 
@@ -234,7 +235,7 @@ class LiveParts:
             return
         at = (self._at if waits_at is None else waits_at) + by
         if not 0 <= at < len(self._choices):
-            self._say(NOTHING_TO_UNDO if by < 0 else NOTHING_TO_REDO)
+            self._say("Nothing to undo: the parts are as they were first shown" if by < 0 else "Nothing to redo")
             return
         if waiting is not None:
             self._drop_search()  # the new search goes on from where that one leads

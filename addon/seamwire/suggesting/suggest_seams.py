@@ -188,21 +188,15 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
         return PartChoice(0.01 * self.parts, self.distortion, self.islands, edits_of_text(self.edits), self.parts_by)
 
-    def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
-        """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
-        if self.front == "NONE":
-            return None
-        if self.front == "FRONT":
-            return _BLENDERS_FRONT
-        return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
-
     def _read(self, context: bpy.types.Context) -> SeamSearch:
         from ..mesh.seam_search import SeamSearch, SearchOptions
 
+        # The direction to the viewer whom seams hide from, in world space, or None to hide from all sides.
+        front = None if self.front == "NONE" else _BLENDERS_FRONT
+        if self.front == "VIEW":
+            front = tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
-        options = SearchOptions(
-            along, finish, self.symmetric, self._front(context), self.distortion, self.islands, self.unwrap
-        )
+        options = SearchOptions(along, finish, self.symmetric, front, self.distortion, self.islands, self.unwrap)
         return SeamSearch(context.objects_in_mode_unique_data, options, self.selected)
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:

@@ -16,7 +16,7 @@ from ..terms.options import SETTINGS
 from ..tool import keymaps
 from ..tool.keymaps import HELP_PANEL
 from ..tool.running import NeedsEditMode
-from ..words.corner import STEPS
+from ..words.hints import STEPS
 from .toolbar import VIEWS
 
 if TYPE_CHECKING:

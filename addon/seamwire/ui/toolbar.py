@@ -286,22 +286,14 @@ def _empty(name: str) -> None:
 
 def draw_idle(header: bpy.types.Header, context: bpy.types.Context) -> None:
     """Draw what the tool can do, before Blender's own hints. Draw nothing while another tool or operator has the mouse."""
-    if tool_is_active(context) and not is_busy(context):
-        draw_hints(header, idle_hints(tool_keys(context.window_manager)))
-
-
-def tool_keys(manager: bpy.types.WindowManager) -> dict[str, Key]:
-    """Return the keys of the tool as the user has set them, by the names of what they begin with."""
-    found: dict[str, Key] = {}
-    for item in items_of(user_keymap(manager, KEYMAP), OPERATOR):
+    # Blender 3.4 tells only of running operators of this add-on.
+    if not tool_is_active(context) or chains or steps or getattr(context.window, "modal_operators", ()):
+        return
+    keys: dict[str, Key] = {}
+    for item in items_of(user_keymap(context.window_manager, KEYMAP), OPERATOR):
         if item.active:
-            found.setdefault(item.properties.first, key_of(item))
-    return found
-
-
-def is_busy(context: bpy.types.Context) -> bool:
-    """Return whether an operator is running. Blender 3.4 tells only of those of this add-on."""
-    return bool(chains or steps or getattr(context.window, "modal_operators", ()))
+            keys.setdefault(item.properties.first, key_of(item))
+    draw_hints(header, idle_hints(keys))
 
 
 def _add_hints() -> None:

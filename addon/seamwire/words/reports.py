@@ -132,18 +132,6 @@ def not_reached(stretches: Sequence[float], wanted: float) -> str:
     return f"{percent(wanted)} was not reached"
 
 
-LIVE_HINTS = (
-    "Click Border: Drop or Keep",
-    "Click Part: Cut",
-    "Ctrl Z: Undo",
-    "Enter: Keep",
-)
-"""The artist's choices while the parts are shown, without those that the corner of the view has."""
-OTHER_KEY = "Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here"
-NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
-NOTHING_TO_REDO = "Nothing to redo"
-
-
 def parts_text(by: PartsBy, amount: float, number: int, stretch: float) -> str:
     parts = "Parts" if by == "AUTO" else f"Parts by {PARTS_BY[by].name}"
     return f"{parts}: {100.0 * amount:.0f} %, {count(number, 'part')}    Stretch: up to {stretch:.3g} %"
