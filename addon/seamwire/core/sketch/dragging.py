@@ -88,7 +88,7 @@ class Dragging(Interaction):
             if wire.along != own.along:
                 own = Given.of(wire)
             self._legs.append(Leg(board, self._before, own, wire, end))
-        self._courses: tuple[Begun, ...] = ()
+        self._courses: list[tuple[Leg, Way, Course]] = []
         self._show(tuple(leg.wire for leg in self._legs))
         self._is_final = self._is_solved = True
 
@@ -131,7 +131,7 @@ class Dragging(Interaction):
 
     def _lead(self, pick: Pick) -> str:
         """Find the wires to a pick, and show them if all of them are solved. Return why there is none."""
-        begun: list[Begun] = []
+        self._courses = []
         moved: list[Wire] = []
         missing: list[Leg] = []
         # A wire that arrives comes first: those that leave an edge have to go on in its direction.
@@ -154,16 +154,15 @@ class Dragging(Interaction):
             ordered = choices(way, ways, leading)
             if not ordered:
                 missing.append(leg)
-                begun.append(Begun(way, Course((leg.wire,)), search_way(way, self._board.ground, leg.live, leg.begin)))
+                self._courses.append((leg, way, Course((leg.wire,))))
                 continue
             wire = way.how.of(replace(ordered[0], id=way.id))
             moved.append(wire)
             shown = wire if found.solved else leg.wire
             course = Course((shown,), final=found.final, choices=ordered if found.final else ())
-            begun.append(Begun(way, course, search_way(way, self._board.ground, leg.live, leg.begin)))
+            self._courses.append((leg, way, course))
             if meets is not None and meets[0] == way.id:
                 direction = directed(wire, leg.moving)
-        self._courses = tuple(begun)
         if self._is_solved and missing:
             return f"No wire from {pick_name(missing[0].stays)} reaches {pick_name(pick)}"
         if self._is_solved:
@@ -210,7 +209,11 @@ class Dragging(Interaction):
         if self.target is None:
             return None
         board, pick = self._board, self.target.pick
-        begun = tuple(each for each in self._courses if not each.course.final or each.course.wires[0].leaves_trace)
+        begun = tuple(
+            Begun(way, course, search_way(way, board.ground, leg.live, leg.begin))
+            for leg, way, course in self._courses
+            if not course.final or course.wires[0].leaves_trace
+        )
         report = "A wire was removed: no edge is left for its seam" if len(begun) < len(self._courses) else ""
         requests = {each.request.id: each.request for each in begun}
         gone = [leg.own.id for leg in self._legs if leg.own.id not in requests]
