@@ -19,8 +19,8 @@ from scene import add_grid, add_layers, edit, snapshot
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import steps
-from seamwire.operators.chain import Chain
-from seamwire.operators.chain_state import running
+from seamwire.tool.chain import Chain
+from seamwire.tool.running import chains as running
 from seamwire.view.edited_objects import edited
 
 ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)

@@ -143,10 +143,6 @@ def add_pillow(rows: Sequence[str], fine: int = 8) -> bpy.types.Object:
     return add_object(points, faces, name="Pillow")
 
 
-SHIRT = ("    oo    ", "o########o", "o########o", "   ####   ", "   ####   ", "   ####   ", "   oooo   ")
-"""Rows of a shirt for `add_pillow`: open at the neck, at both sleeves and at the waist."""
-
-
 GATE_SIDE = 17
 GATE_SEEDS = (8 * GATE_SIDE + 4, 8 * GATE_SIDE + 12)
 """The feet of the gate's ridge."""

@@ -55,8 +55,8 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from seamwire.core.sketch.sketch import Sketch
     from seamwire.core.solver.solver import LiveMaker
     from seamwire.mesh import edit_mesh
-    from seamwire.operators.chain import TICK
     from seamwire.terms.options import Options
+    from seamwire.tool.chain import TICK
 
     steps = {}
     watch = Watch()

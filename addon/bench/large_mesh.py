@@ -66,8 +66,8 @@ class Holds:
 
     def watch_events(self) -> None:
         """Time what Blender calls: the operator's methods count their arguments, so the drawing is watched below them."""
-        from seamwire.operators import chain_acts
-        from seamwire.operators.chain import Chain
+        from seamwire.tool import acts as chain_acts
+        from seamwire.tool.chain import Chain
         from seamwire.view.edited_objects import EditedObjects
 
         self.watch(Chain, "__init__", "start")
@@ -133,7 +133,7 @@ def leave(ui: driver.Ui) -> None:
 
 def session() -> object | None:
     """Return the session of the chain that is being drawn."""
-    from seamwire.operators.chain_state import running
+    from seamwire.tool.running import chains as running
 
     return running[0].session if running else None
 
@@ -270,7 +270,7 @@ def measure_second_seed(ui: driver.Ui, places: NDArray[np.float64], found: dict[
 
 def measure_end(ui: driver.Ui, holds: Holds, places: NDArray[np.float64], found: dict[str, object]) -> None:
     """From the key that ends a chain to the first picture in which nothing of it is left to be done."""
-    from seamwire.operators import undo_steps
+    from seamwire.tool import running as undo_steps
 
     ui.click(tuple(places[3 * MOVES // 4]))
     settle(ui)

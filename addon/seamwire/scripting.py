@@ -20,11 +20,11 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Mapping, Set
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from numbers import Real
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, Any, Union
 
 import bpy
 import numpy as np
@@ -106,16 +106,20 @@ def mark(
     ValueError
         If an argument is wrong, or no seam was marked. The message names the chain and the seed, such as ``chains[0][2]``.
     """
-    _one_of("along", along, ALONG)
-    _one_of("finish", finish, FINISHES)
-    _one_of("metric", metric, METRICS)
-    _one_of("take", take, TAKES)
-    clear = _bool("clear", clear)
+    for name, value, allowed in (
+        ("along", along, ALONG),
+        ("finish", finish, FINISHES),
+        ("metric", metric, METRICS),
+        ("take", take, TAKES),
+    ):
+        _checked(name, value, "ENUM", allowed)
+    clear = _checked("clear", clear, "BOOLEAN")
     if strength is not None:
-        strength = _in_range("strength", strength, *STRENGTH_RANGE)
-    axes = None
-    if mirror is not None:
-        axes = tuple(map(_axis, _listed("mirror", mirror, "axes, such as 'XY'", is_ordered=False)))
+        strength = _checked("strength", strength, "FLOAT", (), *STRENGTH_RANGE)
+    axes = None if mirror is None else _listed("mirror", mirror, "axes, such as 'XY'", is_ordered=False)
+    for axis in axes or ():
+        if axis not in ("X", "Y", "Z"):
+            raise ValueError(f"mirror: {axis!r} is not an axis, such as 'X'")
     chains, loops = _listed("chains", chains, "chains"), _listed("loops", loops, "seeds")
     strokes, avoid = _listed("strokes", strokes, "strokes"), _listed("avoid", avoid, "strokes")
     across = along == "SURFACE"
@@ -124,14 +128,14 @@ def mark(
     if across and take != "FIRST":
         raise ValueError("take needs along='EDGES'")
     with editing(obj):
-        mirrored = settings.mirror_axes(obj.data) if axes is None else axes
+        mirrored = settings.mirror_axes(obj.data) if axes is None else tuple(map("XYZ".index, axes))
         options = Options(along=along, finish=finish, metric=metric, clear=clear, mirror=mirrored)
         if strength is not None:
             options = Options(**{**vars(options), strength_name(along): strength})
         mesh = ObjectSession(obj, options)
         reader = _Reader(mesh, across)
         through = [reader.chain(f"chains[{row}]", chain) for row, chain in enumerate(chains)]
-        around = [reader.loop(f"loops[{row}]", seed) for row, seed in enumerate(loops)]
+        around = [reader.seed(f"loops[{row}]", seed, "LOOP") for row, seed in enumerate(loops)]
         guides = [
             (f"{name}[{row}]", reader.stroke(f"{name}[{row}]", vertices), name == "strokes")
             for name, group in (("strokes", strokes), ("avoid", avoid))
@@ -210,7 +214,7 @@ def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
     unknown = options.keys() - (set(properties.keys()) - {"rna_type"})
     if unknown:
         raise TypeError(f"There is no option {sorted(unknown)[0]!r}")
-    options = {name: _value(name, value, properties[name]) for name, value in options.items()}
+    options = {name: _option(name, value, properties[name]) for name, value in options.items()}
     try:
         return work(**options) == {"FINISHED"}
     except RuntimeError as error:
@@ -230,13 +234,11 @@ class _Reader:
     """Reads the seeds that a script gives for a mesh, and for wires `across` the surface or along edges."""
 
     def __init__(self, mesh: ObjectSession, across: bool) -> None:
-        self._mesh = mesh
-        self._across = across
+        self._mesh, self._across = mesh, across
 
     def chain(self, where: str, seeds: Sequence[Seed]) -> list[Pick]:
-        """Return the picks of a chain."""
         seeds = _listed(where, seeds, "seeds, such as [0, 512]")
-        picks = [self._seed(f"{where}[{row}]", seed) for row, seed in enumerate(seeds)]
+        picks = [self.seed(f"{where}[{row}]", seed) for row, seed in enumerate(seeds)]
         if len(picks) < 2:
             raise ValueError(f"{where}: a chain needs at least two seeds")
         for row, (one, two) in enumerate(pairwise(picks), start=1):
@@ -244,30 +246,25 @@ class _Reader:
                 raise ValueError(f"{where}[{row}]: the seed comes twice in a row, but a wire needs two different ends")
         return picks
 
-    def loop(self, where: str, seed: Seed) -> Pick:
-        """Return the edge or point of a loop."""
-        pick = self._seed(where, seed)
-        if not self._across and not isinstance(pick, tuple):
-            raise ValueError(f"{where}: along edges, a loop runs through an edge such as (7, 9)")
-        return pick
-
     def stroke(self, where: str, vertices: Sequence[int]) -> list[int]:
-        """Return the vertices of a stroke."""
         vertices = _listed(where, vertices, "vertices, such as [4, 90, 31]")
-        numbers = [self._seed(f"{where}[{row}]", vertex, only_vertex=True) for row, vertex in enumerate(vertices)]
+        numbers = [self.seed(f"{where}[{row}]", vertex, "STROKE") for row, vertex in enumerate(vertices)]
         if len(numbers) < 2:
             raise ValueError(f"{where}: a stroke needs at least two vertices")
         return numbers
 
-    def _seed(self, where: str, seed: Seed, only_vertex: bool = False) -> Pick:
+    def seed(self, where: str, seed: Seed, of: str = "CHAIN") -> Pick:
+        """Return the pick of a seed of a chain, a loop or a stroke."""
         pick = self._pick(where, seed)
-        if only_vertex and not isinstance(pick, int):
-            raise ValueError(f"{where}: a stroke runs through vertices")
-        if self._across and isinstance(pick, tuple):
-            raise ValueError(f"{where}: across the surface, a seed is a vertex or a place, not an edge")
-        if not self._across and isinstance(pick, FacePoint):
-            raise ValueError(f"{where}: along edges, a seed is a vertex or an edge, not a place")
-        problem = self._mesh.cage.problem_with(pick)
+        is_edge, problem = isinstance(pick, tuple), self._mesh.cage.problem_with(pick)
+        if of == "STROKE" and not isinstance(pick, int):
+            problem = "a stroke runs through vertices"
+        elif self._across and is_edge:
+            problem = "across the surface, a seed is a vertex or a place, not an edge"
+        elif not self._across and isinstance(pick, FacePoint):
+            problem = "along edges, a seed is a vertex or an edge, not a place"
+        elif of == "LOOP" and not self._across and not is_edge and not problem:
+            problem = "along edges, a loop runs through an edge such as (7, 9)"
         if problem:
             raise ValueError(f"{where}: {problem}")
         return pick
@@ -282,7 +279,7 @@ class _Reader:
             ends = [_index(part) for part in parts]
             if len(ends) == 2 and None not in ends and ends[0] != ends[1]:
                 return ends[0], ends[1]
-            place = [_number(where, part) for part in parts] if len(parts) == 3 else []
+            place = [_checked(where, part, "FLOAT") for part in parts] if len(parts) == 3 else []
         except ValueError:
             pass
         if len(place) != 3 or not all(map(math.isfinite, place)):
@@ -293,11 +290,6 @@ class _Reader:
             return self._mesh.point_at(place)
         except ValueError as error:
             raise ValueError(f"{where}: {error}") from error
-
-
-def _one_of(name: str, value: object, allowed: Iterable[str]) -> None:
-    if not isinstance(value, str) or value not in allowed:
-        raise ValueError(f"{name}={value!r}: choose one of {', '.join(allowed)}")
 
 
 def _listed(where: str, values: object, of: str, is_ordered: bool = True) -> list[object]:
@@ -317,53 +309,42 @@ def _index(value: object) -> int | None:
         return None
 
 
-def _number(name: str, value: object) -> float:
-    try:
-        # NumPy registers its numbers as such.
-        number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
-    except OverflowError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise ValueError(f"{name}={value!r}: choose a number")
-    return number
+def _checked(
+    name: str, value: object, kind: str, of: Iterable[str] = (), low: float = -math.inf, high: float = math.inf
+) -> Any:  # noqa: ANN401 - a value of the kind
+    """Return a value of a kind, as Blender calls the types of properties. Raise ValueError if it is of another, or out of range."""
+    number = math.nan
+    if isinstance(value, Real) and not isinstance(value, bool):  # NumPy registers its numbers as such
+        with suppress(OverflowError):
+            number = float(value)
+    if kind == "ENUM":
+        is_good, wanted = isinstance(value, str) and value in of, f"one of {', '.join(of)}"
+    elif kind == "STRING":
+        is_good, wanted = isinstance(value, str), "a text"
+    elif kind == "BOOLEAN":
+        is_good = isinstance(value, (bool, np.bool_)) or (isinstance(value, int) and value in {0, 1})
+        wanted = "True or False"
+    elif kind == "INT" and _index(value) is None:
+        is_good, wanted = False, "a whole number"
+    elif not math.isfinite(number):
+        is_good, wanted = False, "a number"
+    else:
+        is_good = low <= number <= high
+        wanted = f"a number from {low:g} to {high:g}" if high < _NO_LIMIT else f"a number that is at least {low:g}"
+    if not is_good:
+        raise ValueError(f"{name}={value!r}: choose {wanted}")
+    return {"BOOLEAN": bool, "INT": int, "FLOAT": float}.get(kind, str)(value)
 
 
-def _in_range(name: str, value: object, low: float, high: float) -> float:
-    number = _number(name, value)
-    if not low <= number <= high:
-        limits = f"from {low:g} to {high:g}" if high < _NO_LIMIT else f"that is at least {low:g}"
-        raise ValueError(f"{name}={value!r}: choose a number {limits}")
-    return number
-
-
-def _bool(name: str, value: object) -> bool:
-    if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, int) and value in {0, 1}):
-        raise ValueError(f"{name}={value!r}: choose True or False")
-    return bool(value)
-
-
-def _value(name: str, value: object, own: bpy.types.Property) -> object:
+def _option(name: str, value: object, own: bpy.types.Property) -> object:
     """Return the value of an operator's property. Raise ValueError if it is of another type, or out of range."""
-    if own.type == "BOOLEAN":
-        return _bool(name, value)
     if own.type == "ENUM":
-        _one_of(name, value, own.enum_items.keys())
-    elif own.type == "STRING" and not isinstance(value, str):
-        raise ValueError(f"{name}={value!r}: choose a text")
-    elif own.type == "INT" and _index(value) is None:
-        raise ValueError(f"{name}={value!r}: choose a whole number")
-    elif own.type == "FLOAT" and own.is_array:
-        numbers = [_number(name, each) for each in _listed(name, value, "numbers")]
-        if len(numbers) != own.array_length:
-            raise ValueError(f"{name}={value!r}: choose {own.array_length} numbers")
-        return numbers
-    elif own.type in {"INT", "FLOAT"}:
-        number = _in_range(name, value, own.hard_min, own.hard_max)
-        return int(number) if own.type == "INT" else number
-    return value
-
-
-def _axis(name: object) -> int:
-    if not isinstance(name, str) or name not in {"X", "Y", "Z"}:
-        raise ValueError(f"mirror: {name!r} is not an axis, such as 'X'")
-    return "XYZ".index(name)
+        return _checked(name, value, own.type, own.enum_items.keys())
+    if own.type in {"BOOLEAN", "STRING"}:
+        return _checked(name, value, own.type)
+    if not own.is_array:
+        return _checked(name, value, own.type, low=own.hard_min, high=own.hard_max)
+    numbers = [_checked(name, each, "FLOAT") for each in _listed(name, value, "numbers")]
+    if len(numbers) != own.array_length:
+        raise ValueError(f"{name}={value!r}: choose {own.array_length} numbers")
+    return numbers

@@ -229,15 +229,6 @@ def test_in_every_shape_key_new_vertices_lie_on_the_faces_as_they_were() -> None
     assert flat == pytest.approx([0.0] * len(flat), abs=1e-6)
 
 
-def test_wires_that_cross_meet_in_a_vertex_and_part_the_mesh() -> None:
-    obj = add_grid(9)
-    edit()
-    cut("0 80; 8 72; 4 44")  # both diagonals, and from the middle of one side to that of another
-    crossing = [v for v, count in _counts(seams(obj)).items() if count > 2]
-    assert len(crossing) == 2
-    assert island_count(obj) == 6
-
-
 def _counts(edges: list[tuple[int, int]]) -> dict[int, int]:
     numbers, counts = np.unique(np.array(edges), return_counts=True)
     return dict(zip(numbers.tolist(), counts.tolist(), strict=True))
@@ -429,16 +420,6 @@ def test_faces_around_a_corner_of_the_mesh_are_cut() -> None:
     assert is_sound(obj)
 
 
-def test_a_seed_that_the_wire_passes_on_its_way_back_is_no_gap(capfd: pytest.CaptureFixture[str]) -> None:
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=14, ring_count=9)
-    obj = bpy.context.active_object
-    edit()
-    assert cut("85 (-0.438349 -0.183387 -0.856156) 90")
-    assert "could not be cut" not in capfd.readouterr().out
-    assert 90 in joined(obj, 85)
-    assert is_sound(obj)
-
-
 @pytest.mark.every_blender
 def test_a_mesh_of_edges_alone_has_no_places() -> None:
     obj = add_object([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [], [(0, 1), (1, 2)])
@@ -447,33 +428,6 @@ def test_a_mesh_of_edges_alone_has_no_places() -> None:
         with pytest.raises(ValueError, match="No face is visible"):
             run()
     assert seams(obj) == []
-
-
-def add_unlike_halves(count: int = 1) -> bpy.types.Object:
-    """Add a cube whose quads are cut into triangles the same way on both sides, not mirrored."""
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    obj = bpy.context.active_object
-    edit()
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide(number_cuts=count)
-    bpy.ops.mesh.quads_convert_to_tris(quad_method="FIXED")
-    return obj
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("chains", ["1 23", "3 15", "7 25", "0 13", "25 7", "6 9"])
-def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.CaptureFixture[str]) -> None:
-    obj = add_unlike_halves()
-    assert cut(chains, mirror={"X"})
-    assert "Warning" not in capfd.readouterr().out
-    lengths = defaultdict(float)
-    for edge in bmesh.from_edit_mesh(obj.data).edges:
-        if edge.seam:
-            middle = 0.5 * (edge.verts[0].co.x + edge.verts[1].co.x)
-            lengths[math.copysign(1.0, middle) if abs(middle) > 1e-6 else 0.0] += edge.calc_length()
-    assert lengths[1.0] == pytest.approx(lengths[-1.0], rel=1e-5)
-    assert lengths[1.0] > 0.5
-    assert is_sound(obj)
 
 
 def test_an_image_that_leaves_the_mesh_is_left_out() -> None:
@@ -558,23 +512,6 @@ def seam_places(obj: bpy.types.Object) -> dict[tuple[float, float], int]:
     vertices = bpy.context.active_object.data.vertices
     obj.update_from_editmode()
     return {tuple(round(c, 5) for c in vertices[v].co[:2]): count for v, count in _counts(seams(obj)).items()}
-
-
-def test_where_wires_meet_inside_a_face_there_is_a_vertex_then() -> None:
-    obj = add_grid(5)
-    edit()
-    assert cut("(-0.8 -0.7 0.3) (0.1 0.35 0) (0.9 -0.3 0)")
-    assert agree(obj)
-    counts = seam_places(obj)
-    assert counts[0.1, 0.35] == 2
-    # An end inside a face goes back to the last edge, as with Blender's knife.
-    assert sorted(place for place, count in counts.items() if count == 1) == [
-        pytest.approx((-0.62857, -0.5), abs=1e-4),
-        pytest.approx((0.53077, 0.0), abs=1e-4),
-    ]
-    ends = {end for wire in session_on(obj).session.wires for end in (wire.start, wire.end)}
-    obj.update_from_editmode()
-    assert any((obj.data.vertices[v].co - Vector((0.1, 0.35, 0.0))).length < 1e-5 for v in ends)
 
 
 def test_a_closed_chain_of_places_cuts_an_island_out() -> None:

@@ -52,22 +52,6 @@ def add_folded_faces(share: float, seed: int) -> bpy.types.Object:
     return obj
 
 
-DOUBLE = ([(0, 0, 0), (1, -1, 0), (1, -1, 0), (1, 1, 0), (2, 0.2, 0)], [(0, 1, 3), (1, 2, 3), (2, 4, 3)], 0, 4)
-CAP = ([(0, 0, 0), (1, -1, 0), (1, 0, 0), (1, 1, 0), (2, 0.2, 0)], [(0, 1, 3), (1, 2, 3), (1, 4, 2), (2, 4, 3)], 0, 2)
-
-
-@pytest.mark.parametrize("shape", [DOUBLE, CAP], ids=["needle", "cap"])
-@pytest.mark.parametrize("back", [False, True], ids=["", "back"])
-def test_a_face_without_area_on_the_way_is_cut(shape: tuple, back: bool) -> None:
-    points, faces, start, end = shape
-    obj = add_object(points, faces)
-    edit()
-    start, end = (end, start) if back else (start, end)
-    assert cut(f"{start} {end}")
-    assert end in joined(obj, start)
-    assert is_sound(obj)
-
-
 @pytest.mark.every_blender
 @pytest.mark.parametrize(
     ("share", "seed", "chains"), [(0.1, 3, "174 130"), (0.3, 4, "505 147; 364 137"), (0.3, 4, "364 137")]
@@ -123,22 +107,6 @@ def test_normals_are_right_after_a_cut() -> None:
     found = np.array([item.normal for item in (*bm.faces, *bm.verts)])
     bm.normal_update()
     assert found == pytest.approx(np.array([item.normal for item in (*bm.faces, *bm.verts)]), abs=1e-6)
-
-
-@pytest.mark.parametrize("seed", [0, 1, 3, 5, 8])
-def test_places_on_faces_without_area_join_the_wires_that_meet_there(seed: int) -> None:
-    obj = add_flat_faces(2, 0.4, seed)
-    dice = random.Random(seed)
-    edit()
-    for _ in range(4):
-        bm = bmesh.from_edit_mesh(obj.data)
-        face = dice.choice([face for face in bm.faces if face.calc_area() < 1e-6])
-        one, two = dice.sample(list(face.verts), 2)
-        start, end = dice.sample(range(42), 2)
-        x, y, z = one.co.lerp(two.co, dice.choice((0.2, 0.5, 0.9)))
-        assert cut(f"{start} ({x} {y} {z}) {end}")
-        assert end in joined(obj, start)
-    assert is_sound(obj)
 
 
 def test_suggested_wires_are_cut_where_faces_have_no_area() -> None:

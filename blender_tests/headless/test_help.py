@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from seamwire.mesh.settings import preferences
-from seamwire.operators import keymaps
+from seamwire.tool import keymaps
 from seamwire.ui import menus as panel
-from seamwire.words import corner as words
+from seamwire.words import hints as words
 from seamwire.words.keys import Action, Bindings
 
 

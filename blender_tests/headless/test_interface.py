@@ -14,7 +14,7 @@ from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.settings import TOOL
 from seamwire.ui import menus
-from seamwire.words.hints import Status, hints
+from seamwire.words.hints import hints
 from seamwire.words.keys import Bindings
 from toolbar import slots
 
@@ -80,10 +80,10 @@ def test_every_icon_is_one_of_blenders(session: Sketch) -> None:
     session.wait()
     session.hover(40)
     session.click(4)  # refused, and said
-    shown = [icon for icon, _ in hints(Status(session.picture, Bindings(), message="A message"))]
+    shown = [icon for icon, _ in hints(session.picture, Bindings(), message="A message")]
     session.follow(replace(session.options, along="SURFACE"))  # computing
     session.end_chain()
-    shown += [icon for icon, _ in hints(Status(session.picture, Bindings(), mirror_offer="X"))]
+    shown += [icon for icon, _ in hints(session.picture, Bindings(), mirror_offer="X")]
     assert [icon for icon in shown if icon not in icons] == []
 
 

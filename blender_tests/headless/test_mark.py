@@ -18,7 +18,6 @@ from scene import (
     changing,
     edit,
     ends,
-    head,
     mark_wires,
     seams,
     snapshot,
@@ -45,21 +44,6 @@ def test_edges_are_seeds_and_part_of_the_wire() -> None:
     marked = seams(obj)
     assert set(chain(*range(36, 44))) <= set(marked)
     assert ends(marked) == [36, 80]
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_on_suzanne_a_wire_joins_its_seeds_and_nothing_else_changes(along: str) -> None:
-    obj = add_suzanne(levels=1)
-    add_layers(obj)
-    first, second, third = head(obj, 3)
-    edit()
-    before = snapshot(obj, with_seams=False)
-    mark(f"{first} {second} {third}", along)
-    marked = seams(obj)
-    assert {first, second, third} <= {vertex for edge in marked for vertex in edge}
-    assert ends(marked) == [first, third]
-    assert snapshot(obj, with_seams=False) == before
 
 
 def test_no_wire_takes_the_diagonal_of_a_polygon() -> None:
@@ -95,25 +79,6 @@ def test_wires_do_not_enter_hidden_faces(along: str) -> None:
     assert not hidden & set(marked)
     assert ends(marked) == [2, 3]
     assert {(26, 27), (32, 33)} & set(marked)
-
-
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_a_turned_moved_and_scaled_object_gets_the_same_seams(along: str) -> None:
-    plain = add_suzanne()
-    seeds = " ".join(map(str, head(plain, 3)))
-    edit()
-    mark(seeds, along)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    expected = seams(plain)
-    plain.select_set(False)
-    placed = add_suzanne()
-    placed.location = (3.0, -2.0, 11.0)
-    placed.rotation_euler = (0.3, 1.1, -0.7)
-    placed.scale = (7.0, 7.0, 7.0)
-    bpy.context.view_layer.update()
-    edit()
-    mark(seeds, along)
-    assert seams(placed) == expected
 
 
 def test_lengths_are_those_that_are_seen() -> None:
@@ -179,18 +144,6 @@ def test_an_object_in_object_mode_is_marked_and_all_is_as_it_was() -> None:
     assert bpy.context.view_layer.objects.active == other
     assert (obj.select_get(), other.select_get()) == (False, True)
     assert (seams(obj), seams(other)) == (chain(10, 11, 12, 13, 14), [])
-
-
-def test_an_object_that_cannot_be_edited_is_refused_and_all_is_as_it_was() -> None:
-    obj, other = add_grid(5, name="Hidden"), add_grid(5, name="Other")
-    obj.select_set(False)
-    obj.hide_viewport = True
-    with pytest.raises(ValueError, match="Hidden cannot be edited"):
-        mark_wires("10 14", obj=obj)
-    assert (obj.mode, other.mode) == ("OBJECT", "OBJECT")
-    assert bpy.context.view_layer.objects.active == other
-    assert other.select_get()
-    assert seams(obj) == []
 
 
 def test_functions_on_whole_objects_work_on_one_object_only() -> None:
@@ -349,16 +302,6 @@ def test_numbers_of_numpy_are_seeds() -> None:
     assert seams(obj) == sorted(chain(0, 1, 2) + chain(12, 13, 14))
     seamwire.mark(obj, [np.array([[-1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])], along="SURFACE")
     assert set(chain(20, 21, 22)) <= set(seams(obj))
-
-
-def test_a_mesh_without_anything_visible_is_said() -> None:
-    obj = add_grid(3)
-    edit()
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.hide()
-    with pytest.raises(ValueError, match="No face is visible in Grid"):
-        mark("0 2")
-    assert seams(obj) == []
 
 
 @pytest.mark.parametrize("size", [0, 1])

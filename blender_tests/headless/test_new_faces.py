@@ -141,21 +141,6 @@ def test_the_ends_of_a_tube_that_are_filled_later_get_a_place(
     check_whole(obj)
 
 
-@pytest.mark.parametrize("first", [SEAMWIRE, BLENDER])
-@pytest.mark.parametrize("fill", [fill_by_f, fill_holes, fill_with_triangles])
-def test_a_large_hole_of_a_ball_that_is_filled_later_is_mapped_once(
-    fill: Callable[[bpy.types.Object], None], first: str
-) -> None:
-    obj = add_ball()
-    delete_faces(obj, lambda face: face.calc_center_median().z > 0.1)
-    unwrap_first(obj, first)
-    edit()
-    fill(obj)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert seamwire.unwrap(obj)
-    check_whole(obj)
-
-
 def test_a_hole_that_fits_the_map_keeps_all_uvs() -> None:
     obj = add_grid(7)
     delete_faces(obj, lambda face: face.index in {14, 15, 20, 21})

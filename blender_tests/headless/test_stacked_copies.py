@@ -72,20 +72,3 @@ def test_new_copies_lie_on_each_other_beside_islands_that_stay() -> None:
     assert np.array_equal(found[1], found[2])
     for stays in (first, other):
         assert (found[1].max(axis=0) < stays.min(axis=0)).any() or (found[1].min(axis=0) > stays.max(axis=0)).any()
-
-
-def test_copies_of_several_objects_lie_on_each_other() -> None:
-    objects = []
-    for name in ("one", "two"):
-        obj = add_parts()
-        obj.name = name
-        bpy.ops.object.mode_set(mode="OBJECT")
-        objects.append(obj)
-    for obj in objects:
-        obj.select_set(True)
-    edit()
-    assert bpy.ops.mesh.seamwire_unwrap(stack=True) == {"FINISHED"}
-    one, two = (islands(obj) for obj in objects)
-    assert all(np.array_equal(mine, theirs) for mine, theirs in zip(one, two, strict=True))
-    assert np.array_equal(one[0], two[2])
-    assert in_square(objects[0])

@@ -8,8 +8,8 @@ import bpy
 import pytest
 from scene import add_grid, edit
 from seamwire.mesh import settings as chosen
-from seamwire.operators import chain_acts
-from seamwire.operators.keymaps import HELP_PANEL
+from seamwire.tool import acts as chain_acts
+from seamwire.tool.keymaps import HELP_PANEL
 from seamwire.ui import toolbar
 from seamwire.words.keys import Action
 

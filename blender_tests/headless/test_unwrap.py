@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
+from maps import energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_layers, add_object, add_suzanne, changing, edit, set_seams, snapshot
 from seamwire.core.base import native
 
@@ -116,41 +116,6 @@ def test_a_mesh_without_uvs_is_flattened_and_packed() -> None:
     assert np.abs(signed_areas(triangles(obj)[0])).sum() > 0.4, "in rows a third is covered"
 
 
-def test_the_flattening_stretches_less_than_blenders_unwrap() -> None:
-    obj = add_suzanne(1)
-    edit()
-    cut_at(obj, "x")
-    found = {}
-    for method in ("ANGLE_BASED", "SEAMWIRE"):
-        assert bpy.ops.mesh.seamwire_unwrap(method=method, changed_only=False) == {"FINISHED"}
-        found[method] = energy(obj)
-    assert found["SEAMWIRE"] < found["ANGLE_BASED"] - 0.1
-
-
-def test_islands_have_one_scale_where_all_are_new() -> None:
-    obj = add_hill()
-    edit()
-    set_seams(obj, row(2), row(7))
-    assert unwrap() == {"FINISHED"}
-    found = [density(obj, faces) for faces in (slice(0, 16), slice(16, 56), slice(56, 64))]
-    assert max(found) < 1.1 * min(found)
-
-
-def test_polygons_and_faces_without_area_get_uvs() -> None:
-    corners = [(math.cos(angle), math.sin(angle), 0.0) for angle in np.linspace(0.0, 2.0 * math.pi, 7)[:-1]]
-    # A hexagon, a square beside it, and a face on the line between the two.
-    points = [*corners, (3.0, corners[0][1], 0.0), (3.0, corners[1][1], 0.0), (2.0, corners[0][1], 0.0)]
-    obj = add_object(points, [(0, 1, 2, 3, 4, 5), (0, 6, 7, 1), (0, 8, 6)])
-    edit()
-    assert unwrap() == {"FINISHED"}
-    assert in_square(obj)
-    found, places = triangles(obj)
-    is_solid = areas(places) > 1e-9
-    assert is_solid.sum() == len(found) - 1
-    ratios = signed_areas(found)[is_solid] / areas(places)[is_solid]
-    assert ratios == pytest.approx(ratios[0], rel=1e-3), "what is flat is only scaled"
-
-
 def test_uvs_are_squeezed_as_the_image_is_wide() -> None:
     image = bpy.data.images.new("Wide", 300, 100)
     material = bpy.data.materials.new("Wide")
@@ -232,24 +197,6 @@ def test_only_changed_islands_are_flattened_from_the_map_that_is_there(monkeypat
     assert len(corners) == 4 * 8 * 5
     assert len(set(parts.tolist())) == 2
     assert start == pytest.approx(before.reshape(-1, 2))
-
-
-def test_without_room_in_the_square_new_islands_lie_beside_it() -> None:
-    obj = add_hill()
-    edit()
-    set_seams(obj, row(2))
-    assert unwrap() == {"FINISHED"}
-    # The large island fills the square, the small one lies on it.
-    low, high = boxes(uvs(obj)[16:])
-    move(obj, slice(16, 64), tuple(-low / (high - low).min()), 1.0 / (high - low).min())
-    low, high = boxes(uvs(obj)[:16])
-    scale = 0.6 / (high - low).max()
-    move(obj, slice(0, 16), tuple(0.2 - scale * low), scale)
-    set_seams(obj, (4, 13, 22))
-    assert unwrap() == {"FINISHED"}
-    places = uvs(obj)[:16]
-    assert apart(places, uvs(obj)[16:])
-    assert boxes(places)[0][0] > 1.0
 
 
 def test_a_slit_that_stays_closed_in_the_map_is_not_unwrapped_again() -> None:

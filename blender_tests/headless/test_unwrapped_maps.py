@@ -16,7 +16,7 @@ from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.mesh.uv_islands import labels_of
-from seamwire.operators.after_chain import unwrap_after_chain
+from seamwire.tool.chain import unwrap_after_chain
 
 
 def add_torus() -> None:
@@ -54,23 +54,6 @@ def test_a_closed_mesh_of_polygons_without_seams_gets_a_valid_map(
     assert unwrap() == {"FINISHED"}
     assert (flipped(obj), overlapping_pairs(obj), in_square(obj)) == (0, 0, True)
     assert "Info: 1 island unwrapped, 0 kept, " in capfd.readouterr().out
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-def test_a_single_seam_anywhere_leaves_the_map_valid(shape: str) -> None:
-    obj = add_shape(shape)
-    bm = bmesh.from_edit_mesh(obj.data)
-    wrong = []
-    for number in range(0, len(bm.edges), 1 if len(bm.edges) < 50 else 5):
-        while obj.data.uv_layers:
-            obj.data.uv_layers.remove(obj.data.uv_layers[0])
-        for edge in bmesh.from_edit_mesh(obj.data).edges:
-            edge.seam = edge.index == number
-        assert unwrap(changed_only=False) == {"FINISHED"}
-        found = flipped(obj), overlapping_pairs(obj)
-        if any(found):
-            wrong.append((number, *found))
-    assert wrong == []
 
 
 @pytest.mark.every_blender

@@ -126,7 +126,9 @@ LATER = "0.9.9"
 def later_version(package: Path, folder: Path) -> Path:
     """Make a package of the later version whose operator has another label."""
     label = re.compile(r'(bl_idname = "mesh\.seamwire_finish"\s+bl_label = )"[^"]*"')
-    step = changed(package, folder / "1.zip", "operators/finish.py", lambda text: label.sub(r'\1"Mark Later"', text))
+    step = changed(
+        package, folder / "1.zip", "operators/seam_operators.py", lambda text: label.sub(r'\1"Mark Later"', text)
+    )
     step = changed(
         step,
         folder / "2.zip",

@@ -10,7 +10,7 @@ import bpy
 import pytest
 from desk import Desk, choose, drag, draw, undo_steps
 from scene import seams
-from seamwire.operators import undo_steps as undo_steps_of_chains
+from seamwire.tool import running as undo_steps_of_chains
 
 
 def call(desk: Desk, name: str, **options: object) -> None:

@@ -11,7 +11,7 @@ from desk import Desk, leave, said
 from scene import add_object, seams
 from seamwire.core.network.picks import FacePoint
 from seamwire.mesh.settings import settings
-from seamwire.operators.chain_state import running
+from seamwire.tool.running import chains as running
 from seamwire.view.edited_objects import edited
 
 N = 60

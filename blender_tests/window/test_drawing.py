@@ -9,7 +9,7 @@ import ui as driver
 from desk import ORANGE, RED, WHITE, Desk, choose, shows, undo_steps
 from mathutils import Euler
 from scene import add_grid, chain, seams, snapshot
-from seamwire.operators import chain_events
+from seamwire.tool import events as chain_events
 
 
 @pytest.mark.smoke

@@ -12,7 +12,7 @@ import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import preferences, settings
-from seamwire.operators import draw as operator
+from seamwire.tool import draw as operator
 from seamwire.ui import menus
 from seamwire.ui.toolbar import along_of
 from seamwire.view import overlay

@@ -20,8 +20,8 @@ from desk import Desk, choose, undo_steps
 from keymaps import as_event, gestures, using
 from scene import animate, seams, snapshot
 from seamwire.mesh.settings import preferences
-from seamwire.operators.chain_state import running
-from seamwire.operators.steps import running as searches
+from seamwire.tool.running import chains as running
+from seamwire.tool.running import steps as searches
 from seamwire.view.edited_objects import edited
 
 EVENTS = 800

@@ -11,9 +11,10 @@ from desk import Desk, choose, drag, draw, said, second_window, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.sketch.picture import Role
 from seamwire.mesh.settings import preferences, settings
-from seamwire.operators import keymaps, steps
+from seamwire.operators import steps
+from seamwire.tool import keymaps
 from seamwire.view.edited_objects import edited
-from seamwire.words import corner
+from seamwire.words import hints as corner
 
 
 def nothing_else_changed(desk: Desk) -> None:

@@ -9,8 +9,8 @@ import pytest
 import ui as driver
 from desk import choose
 from scene import add_grid, chain, edit, seams, snapshot
-from seamwire.operators import chain_events
-from seamwire.operators.chain_state import running
+from seamwire.tool import events as chain_events
+from seamwire.tool.running import chains as running
 
 
 def test_a_double_click_takes_a_loop_and_single_clicks_draw(

@@ -87,7 +87,7 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     ui.wait_until(lambda: not session.computing and settled())
     ui.wait(2)
     told: list[float] = []
-    monkeypatch.setattr("seamwire.operators.chain.status_drawer", lambda _hints: told.append(session.progress))
+    monkeypatch.setattr("seamwire.tool.chain.show_status", lambda _hints: told.append(session.progress))
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
         monkeypatch.setattr(session, "progress", percent / 100.0)

@@ -12,7 +12,8 @@ import ui as driver
 from desk import Desk, draw, undo_steps
 from scene import chain, seams
 from seamwire.mesh.seam_search import Suggestion
-from seamwire.operators import keymaps, steps
+from seamwire.operators import steps
+from seamwire.tool import keymaps
 from seamwire.view.edited_objects import edited
 from seamwire.words.keys import Action, Bindings
 

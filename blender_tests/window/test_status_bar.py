@@ -5,8 +5,8 @@ import bpy
 import pytest
 from desk import Desk, choose
 from seamwire.mesh.registration import IS_OLD
-from seamwire.operators import chain_status
-from seamwire.ui import status_bar
+from seamwire.tool import running as chain_status
+from seamwire.ui import toolbar
 
 pytestmark = pytest.mark.every_blender
 
@@ -21,7 +21,7 @@ def shown(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         texts[:] = [text for _, text in hints]
         draw(header, hints)
 
-    for module in (chain_status, status_bar):
+    for module in (chain_status, toolbar):
         monkeypatch.setattr(module, "draw_hints", draw_and_note)
     return texts
 
@@ -57,7 +57,7 @@ def test_with_the_tool_it_shows_the_gestures_and_in_a_chain_its_keys(desk: Desk,
 
 def test_it_follows_the_keys_of_the_user(desk: Desk, shown: list[str]) -> None:
     desk.choose()
-    keymap = bpy.context.window_manager.keyconfigs.user.keymaps[status_bar.toolbar.KEYMAP]
+    keymap = bpy.context.window_manager.keyconfigs.user.keymaps[toolbar.KEYMAP]
     item = next(item for item in keymap.keymap_items if getattr(item.properties, "first", "") == "LOOP")
     item.active = False
     try:

@@ -23,12 +23,12 @@ from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.mesh.settings import preferences
-from seamwire.operators import keymaps as operators_keymaps
-from seamwire.operators import suggest, suggest_live
-from seamwire.operators.chain_state import running as chains
-from seamwire.operators.other_windows import listening
 from seamwire.operators.steps import Stepwise
-from seamwire.operators.steps import running as searches
+from seamwire.suggesting import live_parts as suggest_live
+from seamwire.suggesting import suggest_seams as suggest
+from seamwire.tool import keymaps as operators_keymaps
+from seamwire.tool.running import chains, listening
+from seamwire.tool.running import steps as searches
 from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
 from seamwire.words.reports import NOTHING_TO_UNDO, OTHER_KEY
@@ -520,18 +520,6 @@ def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
     assert island_count(prism) == 2
 
 
-def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cuts: threading.Event) -> None:
-    before = snapshot(prism)
-    invoke(ui)
-    ui.click(ui.on_screen(FRONT_SIDE))
-    ui.wait(5)
-    assert live()._searches
-    escape(ui)
-    assert not slow_cuts.is_set()
-    assert snapshot(prism) == before
-    assert not edited.covered
-
-
 @pytest.mark.parametrize("step", ["measure", "plan"])
 def test_escape_does_not_wait_for_a_call_that_cannot_be_stopped(
     ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch, step: str
@@ -591,22 +579,6 @@ def test_hidden_borders_and_other_regions_take_no_clicks(ui: driver.Ui, prism: b
     assert all(not edits.dropped for edits in behind.values())
     ui.click((5.0, 5.0))  # beside the mesh
     assert live().choice.edits == behind
-
-
-@pytest.mark.smoke
-def test_slits_are_shown_when_the_hand_rests_and_planned_anew_after_a_change(
-    ui: driver.Ui, prism: bpy.types.Object, status: list[str]
-) -> None:
-    invoke(ui)
-    ui.wait_until(lambda: live().is_planned)
-    ui.wait_until(lambda: bool(status[-1]))
-    assert status[-1].startswith("stretch ") and ", seams " in status[-1]
-    assert seams(prism) == []
-    version = live()._version
-    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
-    ui.wheel(True)
-    assert live()._version > version, "another plan is needed"
-    ui.wait_until(lambda: live().is_planned)
 
 
 def test_the_wheel_ends_a_plan_that_is_being_made(ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting) -> None:

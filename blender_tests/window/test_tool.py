@@ -10,11 +10,11 @@ import ui as driver
 from desk import Desk, choose, leave
 from scene import add_grid, chain, changing, edit, seams
 from seamwire.mesh.settings import TOOL
-from seamwire.operators import draw
-from seamwire.operators.chain_state import running
+from seamwire.tool import draw
+from seamwire.tool.running import chains as running
 from seamwire.view.edited_objects import edited
 from seamwire.view.viewport import place_in
-from seamwire.words import corner
+from seamwire.words import hints as corner
 
 
 def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:

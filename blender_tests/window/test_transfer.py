@@ -14,7 +14,7 @@ import stored
 import ui as driver
 from desk import leave, undo_steps
 from scene import ADDON, add_suzanne, changing, edit, head, mark_wires, seams, snapshot
-from seamwire.operators.steps import running
+from seamwire.tool.running import steps as running
 from seamwire_networks.repeats import Repeats
 from seamwire_networks.transfer import Tracing
 

@@ -12,7 +12,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import WHITE, Desk, choose, draw, leave, shows
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import settings
-from seamwire.operators.chain_state import running
+from seamwire.tool.running import chains as running
 from seamwire.view.edited_objects import edited
 
 ROW = chain(*range(36, 45))

@@ -16,18 +16,19 @@ import stored
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import Desk, choose, dismiss, draw, second_window, send, undo_steps
-from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
+from scene import chain, changing, edit, fail, mark_wires, seams
 from seamwire.core.sketch.picture import Role, SeedRole, ShownSeed
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.sketch.wiring import Wiring
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL, settings
-from seamwire.operators import chain as chain_module
-from seamwire.operators import chain_events, keymaps
-from seamwire.operators.chain_state import running
-from seamwire.operators.drag_handlers import LineHold
-from seamwire.operators.other_windows import listening
+from seamwire.tool import chain as chain_module
+from seamwire.tool import events as chain_events
+from seamwire.tool import keymaps
+from seamwire.tool.holds import Hold
+from seamwire.tool.running import chains as running
+from seamwire.tool.running import listening
 from seamwire.view import edited_objects
 from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.object_view import ObjectView
@@ -240,24 +241,6 @@ def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(d
     ui.move(desk.at(20))
     ui.wait(10)
     assert [wire.vertices for wire in desk.session.wires] == [tuple(range(37, 44))]
-
-
-def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    waited = []
-    monkeypatch.setattr(Sketch, "wait", lambda _: waited.append(1))
-    desk.choose()
-    ui = desk.ui
-    ui.move(desk.at(37))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(37))
-    for vertex in (38, 40, 42, 43):
-        ui.event("MOUSEMOVE", "NOTHING", desk.at(vertex), ticks=0)
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(43), ticks=0)
-    for key in ("RET", "ESC"):
-        ui.event(key, "PRESS", ticks=0)
-        ui.event(key, "RELEASE", ticks=0)
-    ui.wait_until(lambda: not desk.running)
-    assert waited == []
-    assert seams(desk.obj) == chain(*range(37, 44))
 
 
 def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
@@ -482,15 +465,6 @@ def test_what_is_prepared_is_freed_a_while_after_edit_mode_was_left(
     desk.ui.wait_until(lambda: len(desk.session.wires) == 1)
 
 
-def test_another_add_ons_seams_end_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
-    live(desk)
-    set_seams(desk.obj, (0, 1))
-    desk.ui.wait()
-    desk.ui.move(desk.at(53))
-    assert not desk.running
-    assert seams(desk.obj) == [(0, 1), *ROW]
-
-
 def break_overlay(desk: Desk, broken: pytest.MonkeyPatch) -> None:
     broken.setattr(Overlay, "draw_in_scene", fail)
     desk.ui.move(desk.at(54))
@@ -513,12 +487,12 @@ def break_timer(desk: Desk, broken: pytest.MonkeyPatch) -> None:
 def break_while_held(desk: Desk, broken: pytest.MonkeyPatch) -> None:
     desk.ui.event("LEFTMOUSE", "PRESS", desk.at(10))
     for name in ("move", "cancel"):
-        broken.setattr(LineHold, name, fail)
+        broken.setattr(Hold, name, fail)
 
 
 BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
     "hover": lambda desk, broken: broken.setattr(Sketch, "hover", fail),
-    "hints": lambda desk, broken: broken.setattr(chain_module, "status_drawer", fail),
+    "hints": lambda desk, broken: broken.setattr(chain_module.Chain, "hints", fail),
     "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
     "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
     "ending": lambda desk, broken: broken.setattr(Sketch, "end_chain", fail),

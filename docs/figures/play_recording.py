@@ -236,7 +236,7 @@ class Player:
     @staticmethod
     def _need_chain() -> None:
         """Raise ValueError if the chain has ended before, as on a wire: then the same key or button does something else in Blender."""
-        from seamwire.operators.chain_state import running
+        from seamwire.tool.running import chains as running
 
         if not running:
             raise ValueError("the chain has ended before")

@@ -216,7 +216,7 @@ class Film:
 
 def session() -> object | None:
     """Return the session of the chain that is drawn, or of what is pointed at."""
-    from seamwire.operators.chain_state import running
+    from seamwire.tool.running import chains as running
     from seamwire.view.edited_objects import edited
 
     if running:

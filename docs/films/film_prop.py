@@ -48,7 +48,7 @@ def flask() -> bpy.types.Object:
 
 def live() -> object | None:
     """Return the parts that are shown."""
-    from seamwire.operators.steps import running
+    from seamwire.tool.running import steps as running
 
     return running[0]._step.hand if running else None
 

@@ -44,7 +44,7 @@ void add_parts(LoopOffersObject& object, const py::object& labels) {
   without_gil([&] { object.offers.add_parts(numbers); });
 }
 
-std::optional<LoopKind> kind_from(const std::optional<std::string>& name) {
+std::optional<LoopKind> loop_kind(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
   const auto at = std::ranges::find(kKinds, *name);
   if (at == kKinds.end()) throw InvalidInput("last: unknown kind '" + *name + "'");
@@ -65,7 +65,7 @@ std::vector<LoopOffer> find_offers(const LoopOffersObject& object, const py::obj
                   .crossing = {},
                   .kept = edges,
                   .plane = on_plane,
-                  .last = kind_from(last),
+                  .last = loop_kind(last),
                   .triangle = triangle.is_none() ? -1 : number_from(triangle, "triangle"),
                   .is_inside = inside,
                   .is_close_call = close_call,
@@ -83,7 +83,7 @@ py::list chains_of(std::vector<std::vector<std::int32_t>> chains) {
   return found;
 }
 
-py::list borders_of(const LoopOffersObject& object, const py::object& edge) {
+py::list borders_at(const LoopOffersObject& object, const py::object& edge) {
   const Edge through = edge_from(edge, object.vertex_count, "edge");
   return chains_of(without_gil([&] { return object.offers.borders(through); }));
 }
@@ -280,7 +280,7 @@ Raises
 ValueError
     If an edge is not part of the surface, or a vertex or a triangle is out of range.
 )")
-      .def("borders", &borders_of, py::arg("edge"), R"(Find the borders between parts that lead through an edge.
+      .def("borders", &borders_at, py::arg("edge"), R"(Find the borders between parts that lead through an edge.
 
 Parameters
 ----------

@@ -28,7 +28,7 @@ std::optional<MetricKind> find_kind(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<MetricKind> kind_from(const std::optional<std::string>& name) {
+std::optional<MetricKind> metric_kind(const std::optional<std::string>& name) {
   const std::optional<MetricKind> kind = name ? find_kind(*name) : std::nullopt;
   if (!name || kind) return kind;
   throw InvalidInput("follow: expected 'min', 'max', 'concave', 'euclidean' or None, got '" + *name + "'");
@@ -99,7 +99,7 @@ ValueError
 Held<MetricObject> apply(const SurfaceObject& surface, const MetricObject& metric, const py::object& scribbles,
                          const std::optional<std::string>& follow, const py::object& progress) {
   const std::vector<Scribble> strokes = objects_from<Scribble>(scribbles, "scribbles", "Scribble");
-  const std::optional<MetricKind> meant = kind_from(follow);
+  const std::optional<MetricKind> meant = metric_kind(follow);
   return Watch(progress).run([&](const Task& task) {
     return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, strokes, meant, task));
   });

@@ -250,7 +250,7 @@ Parts find_parts(const PartFinder& finder, double amount, const py::object& kept
   return Watch(progress).run([&](const Task& task) { return finder.find(amount, edits, task); });
 }
 
-py::list borders_of(const Parts& parts) {
+py::list borders_between(const Parts& parts) {
   py::list borders;
   for (const std::vector<std::int32_t>& chain : parts.borders) borders.append(handed_over(std::vector(chain)));
   return borders;
@@ -294,7 +294,7 @@ ValueError
                              "(m,) int32: the part of each triangle, numbered as by `face_segments`.")
       .def_readonly("count", &Parts::count, "int: how many parts there are.")
       .def_property_readonly(
-          "borders", &borders_of,
+          "borders", &borders_between,
           "list of (k,) int32: chains of vertices between parts, from junction to junction. A closed\n"
           "chain ends with its first vertex. Existing seams are left out.")
       .def("__repr__", [](const Parts& parts) { return "<Parts: " + std::to_string(parts.count) + " parts>"; });

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Events turned into calls of sessions."""
+"""Operators of Blender beside the tool, and the bases of operators."""

@@ -7,6 +7,7 @@ import traceback
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
+from ..tool.running import NeedsEditMode, chains, steps
 from ..words.reports import ALL_HIDDEN, HALFWAY
 
 if TYPE_CHECKING:
@@ -26,19 +27,6 @@ def description_of_item(name: str) -> classmethod:
         return properties.bl_rna.properties[name].enum_items[getattr(properties, name)].description
 
     return classmethod(description)
-
-
-class NeedsEditMode:
-    """Gives an operator its poll: a mesh must be in Edit Mode."""
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode. If not, the tooltip of a disabled button says so."""
-        obj = context.active_object
-        if context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH":
-            return True
-        cls.poll_message_set("Needs a mesh in Edit Mode")
-        return False
 
 
 class Halfway(Exception):  # noqa: N818 - reads as a state of the work
@@ -65,13 +53,34 @@ class EditMeshOperator(NeedsEditMode):
     """Gives an operator its poll, its options and a way to report what went wrong. The operator has `run`.
 
     If an error comes while meshes are changed, see `changing`, the operator ends with a step of undo.
+
+    An operator that `ends_chain` keeps the chain that is drawn in its window: a button in the tool's header can be clicked while a wire is
+    live.
     """
 
     bl_options = {"REGISTER", "UNDO"}
+    ends_chain = False
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not super().poll(context):
+            return False
+        if cls.ends_chain and any(chain.window != context.window for chain in chains):
+            cls.poll_message_set("A chain is being drawn in another window")
+            return False
+        if cls.ends_chain and steps:
+            cls.poll_message_set(f"{steps[0].bl_label} is running")
+            return False
+        return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Run, and report what cannot be done as an error."""
+        self.end_chain()
         return self.outcome(lambda: self.run(context))
+
+    def end_chain(self) -> None:
+        for chain in tuple(chains) if self.ends_chain else ():
+            chain.finish()
+            chain.notices.tell(self.report)
 
     def outcome(self, work: Callable[[], set[str]]) -> set[str]:
         """Do work and return its result. Report a ValueError, a NativeError or `Halfway`."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that select islands and store them with the mesh."""
+"""The operators that select islands, store them with the mesh, and unwrap them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mathutils import Vector
 from ..mesh.registration import classes, together
 from ..mesh.settings import settings
 from ..terms.choices import STRETCHES, items
-from ..words.reports import count
+from ..words.reports import count, in_words, square_used
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 if TYPE_CHECKING:
@@ -54,19 +54,16 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
     description = description_of_item("which")
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that count."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "which")
-        if self.which == "WORST":
-            layout.prop(self, "kind")
+        self.layout.use_property_split = True
+        for name in ("which", "kind") if self.which == "WORST" else ("which",):
+            self.layout.prop(self, name)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Select them. The stretch is the operator's own if it was given, otherwise the one that the tool shows."""
         if self.which == "TO_CUT":
             return self._select_islands_to_cut(context)
-        is_given = self.properties.is_property_set("kind")
-        self.kind = "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
+        if not self.properties.is_property_set("kind") and settings(context).heat == "AREA":
+            self.kind = "AREA"
         return self._select_worst_island(context)
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
@@ -80,10 +77,8 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         for obj, (faces, _) in found.items():
             edit_mesh.select_faces(obj, faces)
         missing = [int(cuts) for _, cuts_of in found.values() for cuts in cuts_of]
-        if missing:
-            self.report({"INFO"}, f"{count(len(missing), 'island')} to cut: {count(sum(missing), 'more cut')} needed")
-        else:
-            self.report({"INFO"}, "No island needs another cut")
+        told = f"{count(len(missing), 'island')} to cut: {count(sum(missing), 'more cut')} needed"
+        self.report({"INFO"}, told if missing else "No island needs another cut")
         return {"FINISHED"}
 
     def _select_worst_island(self, context: bpy.types.Context) -> set[str]:
@@ -134,7 +129,6 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
     description = description_of_item("what")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Store the islands of all objects in Edit Mode."""
         from ..mesh.uv_islands import store
 
         with changing():
@@ -145,4 +139,74 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
-register, unregister = together(*classes(MESH_OT_seamwire_select_islands, MESH_OT_seamwire_store))
+class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
+    """Unwrap the islands whose seams have changed. All other UVs stay in place"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_unwrap"
+    bl_label = "Unwrap Changed Islands"
+    ends_chain = True
+
+    method: bpy.props.EnumProperty(
+        name="Method",
+        description="How to flatten islands",
+        items=(
+            (
+                "SEAMWIRE",
+                "Symmetric Dirichlet",
+                "Little stretch in angles and areas, without flipped faces or overlaps. Islands with pins use Angle Based",
+            ),
+            ("ANGLE_BASED", "Angle Based", "Blender's method for organic shapes. Preserves angles"),
+            ("CONFORMAL", "Conformal", "Blender's faster method. Preserves angles"),
+        ),
+    )
+    straight: bpy.props.BoolProperty(
+        name="Straight Strips",
+        description="Lay strips and rectangles of quads out straight and along the axes, if that hardly stretches them",
+        default=True,
+    )
+    upright: bpy.props.BoolProperty(
+        name="Upright",
+        description="Turn new islands so that the object's Z axis points up. A quarter turn is made where it saves "
+        "space. Otherwise islands lie in any direction that saves space",
+        default=True,
+    )
+    stack: bpy.props.BoolProperty(
+        name="Stack Copies",
+        description="Lay new islands of the same shape on each other, mirrored ones too, so that they share the texture",
+        default=False,
+    )
+    changed_only: bpy.props.BoolProperty(
+        name="Changed Only", description="Keep the UVs of islands with unchanged seams", default=True
+    )
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        own = ("straight", "upright", "stack") if self.method == "SEAMWIRE" else ()
+        for name in ("method", *own, "changed_only"):
+            self.layout.prop(self, name)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        from ..core.islands.uv_maps import square_use
+        from ..mesh.unwrap import Layout, unwrap_changed
+        from ..mesh.uv_islands import maps_of
+
+        layout = Layout(self.straight, self.upright, self.stack)
+        done = unwrap_changed(context, method=self.method, layout=layout, every=not self.changed_only)
+        for problem in done.problems:
+            self.report({"WARNING"}, problem)
+        if not done.islands:
+            self.report({"INFO"}, "Nothing to unwrap: no island has changed")
+            return {"CANCELLED"}
+        parts = [f"{count(done.islands, 'island')} unwrapped", f"{done.kept} kept", *in_words(done.faults)]
+        if done.unmapped:
+            has = "hidden face has no place", "hidden faces have no place"
+            parts.append(f"{count(done.unmapped, *has)} in the map")
+        with changing():
+            parts.append(square_used(square_use([*maps_of(done.objects).values()])))
+        self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
+        return {"FINISHED"}
+
+
+register, unregister = together(
+    *classes(MESH_OT_seamwire_select_islands, MESH_OT_seamwire_store, MESH_OT_seamwire_unwrap)
+)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that work on existing seams: one turns them into wires, one closes their gaps."""
+"""The operators that work on existing seams: one turns them into wires, one closes their gaps, one makes them run where wires run."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.registration import classes, together
-from ..words.reports import count
-from .edit_mesh_operator import EditMeshOperator
+from ..terms.choices import FINISHES, items
+from ..words.reports import count, not_cut
+from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -42,7 +43,7 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
                 bm = mesh.cage.number_bmesh()
                 seams = seams[[bm.edges.get([bm.verts[v] for v in pair]).select for pair in seams.tolist()]]
             if len(seams):
-                found[mesh] = self._wires(context, mesh, seams)
+                found[mesh] = list(_wires_along(context, mesh, seams))
         if not found:
             self.report({"ERROR"}, f"No {'selected seams' if self.selected else 'seams'} to convert")
             return {"CANCELLED"}
@@ -52,25 +53,22 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
         wires = [wire for own in found.values() for wire in own]
         seeds = {(mesh, end) for mesh, own in found.items() for wire in own for end in (wire.start, wire.end)}
         edges = sum(len(wire.edges()) for wire in wires)
-        self.report(
-            {"INFO"},
-            f"{count(edges, 'seam edge')} converted: {count(len(wires), 'wire')}, {count(len(seeds), 'seed')}",
-        )
+        made = f"{count(len(wires), 'wire')}, {count(len(seeds), 'seed')}"
+        self.report({"INFO"}, f"{count(edges, 'seam edge')} converted: {made}")
         return {"FINISHED"}
 
-    @staticmethod
-    def _wires(context: bpy.types.Context, mesh: ObjectSession, seams: NDArray[np.int32]) -> list[Wire]:
-        progress = context.window_manager
-        progress.progress_begin(0, len(seams))
-        wires, done = [], 0
-        try:
-            for wire in mesh.session.wires_along(seams):
-                wires.append(wire)
-                done += len(wire.edges())
-                progress.progress_update(done)
-        finally:
-            progress.progress_end()
-        return wires
+
+def _wires_along(context: bpy.types.Context, mesh: ObjectSession, seams: NDArray[np.int32]) -> Iterator[Wire]:
+    """Yield the wires of seams. The mouse pointer shows the progress."""
+    progress, done = context.window_manager, 0
+    progress.progress_begin(0, len(seams))
+    try:
+        for wire in mesh.session.wires_along(seams):
+            done += len(wire.edges())
+            progress.progress_update(done)
+            yield wire
+    finally:
+        progress.progress_end()
 
 
 class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
@@ -89,10 +87,16 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Draw wires over the gaps of all objects before writing to any, so that an error leaves all of them unchanged."""
+        from ..core.seams.seam_wires import GapFinder
+
         meshes = self.open_meshes(context)
         if not meshes:
             return {"CANCELLED"}
-        found = self._find(meshes)
+        gaps_of = {
+            mesh: GapFinder(mesh.make_live.wait, mesh.arrays.partly_hidden).find(mesh.arrays.seams, self.longest)
+            for mesh in meshes
+        }
+        found = {mesh: gaps for mesh, gaps in gaps_of.items() if gaps}
         if not found:
             self.report({"INFO"}, "No gaps: no seam ends just before another seam or the boundary")
             return {"CANCELLED"}
@@ -103,16 +107,6 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         marked = self.write(context, found)
         self.report({"INFO"}, f"{count(closed, 'gap')} closed, {count(marked, 'edge')} marked")
         return {"FINISHED"}
-
-    def _find(self, meshes: Iterable[ObjectSession]) -> dict[ObjectSession, list[Gap]]:
-        from ..core.seams.seam_wires import GapFinder
-
-        found = {}
-        for mesh in meshes:
-            gaps = GapFinder(mesh.make_live.wait, mesh.arrays.partly_hidden).find(mesh.arrays.seams, self.longest)
-            if gaps:
-                found[mesh] = gaps
-        return found
 
     def _close(self, mesh: ObjectSession, gaps: list[Gap]) -> int:
         """Draw a wire and its mirror images over each gap that is still open, and return the number of wires."""
@@ -131,4 +125,89 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         return closed
 
 
-register, unregister = together(*classes(MESH_OT_seamwire_take_over, MESH_OT_seamwire_close_gaps))
+_ITEMS = tuple(item for item in items(FINISHES) if FINISHES[item[0]].edits)
+
+
+class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
+    """Make the seams of wires across the surface run exactly where the wires run"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_finish"
+    bl_label = "Finish Seamwires"
+
+    finish: bpy.props.EnumProperty(
+        name="Finish", description="How a seam comes to lie on its wire", items=_ITEMS, default="CUT"
+    )
+
+    description = description_of_item("finish")
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        from ..mesh import finishes
+
+        meshes = self.open_meshes(context)
+        wires = {
+            mesh: own
+            for mesh in meshes
+            if (own := [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks])
+        }
+        if not wires:
+            if meshes:
+                self.report({"ERROR"}, "No kept wire runs across the surface")
+            return {"CANCELLED"}
+        if FINISHES[self.finish].cuts:
+            return cut_wires(self, context, wires, kept=True)
+        with changing(context):
+            moved = sum(finishes.move(mesh, own, self.finish)[1] for mesh, own in wires.items())
+        done = count(sum(map(len, wires.values())), "wire"), count(moved, "vertex", "vertices")
+        self.report({"INFO"}, "{}: {} moved".format(*done))
+        return {"FINISHED"}
+
+
+def cut_wires(
+    operator: bpy.types.Operator,
+    context: bpy.types.Context,
+    wires: Mapping[ObjectSession, Sequence[Wire]],
+    kept: bool = False,
+    crumb: float = 0.0,
+    live_unwrap: bool = True,
+    first: Callable[[], None] = lambda: None,
+) -> set[str]:
+    """Cut wires across the surface into meshes, and report the result.
+
+    Wires that do not run over their mesh are left out. If no wire of a mesh can be cut, a warning names the mesh, and the others are
+    cut. Every cut is tried on a copy before the first mesh changes. Raises `Halfway` if an error comes after that.
+    With `live_unwrap`, Blender's Live Unwrap follows, if it is on.
+
+    `kept` and `crumb` are those of `finishes.cut`. `first` changes meshes before they are cut, and must not renumber them. The
+    sessions that are given end.
+    """
+    from ..mesh import finishes
+
+    plans, problems = {}, []
+    for mesh, own in wires.items():
+        try:
+            if own:
+                plans[mesh] = finishes.plan_cut(mesh, own)
+        except finishes.CutError as error:
+            problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
+    if not plans:
+        operator.report({"ERROR"}, problems[0])
+        return {"CANCELLED"}
+    for problem in problems:
+        operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
+    with changing(context if live_unwrap else None):
+        first()
+        cuts = [finishes.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
+    for problem in not_cut(sum(cut.uncut for cut in cuts), sum(cut.left_out for cut in cuts)):
+        operator.report({"WARNING"}, problem)
+    done = (
+        f"{count(sum(cut.wires for cut in cuts), 'wire')} cut",
+        f"{count(sum(len(cut.edges) for cut in cuts), 'edge')} marked",
+        count(sum(cut.vertices for cut in cuts), "new vertex", "new vertices"),
+    )
+    operator.report({"INFO"}, ", ".join(done))
+    return {"FINISHED"}
+
+
+register, unregister = together(
+    *classes(MESH_OT_seamwire_finish, MESH_OT_seamwire_take_over, MESH_OT_seamwire_close_gaps)
+)

@@ -8,27 +8,22 @@ from __future__ import annotations
 
 import time
 from contextlib import ExitStack
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 
-from .chain_state import running as chains
+from ..tool.keymaps import is_for_blender, right_click_cancels, undoes
+from ..tool.running import listen, show_status
+from ..tool.running import steps as running
 from .edit_mesh_operator import EditMeshOperator
-from .keymaps import is_for_blender, right_click_cancels, undoes
-from .other_windows import listen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from concurrent.futures import Future
 
-    from .suggest_live import LiveParts
-
     Progress = Callable[[float], bool]
     """Takes the finished fraction, and returns whether to continue."""
 
-running: list[Stepwise] = []
-"""The operators that take steps beside the interface at the moment."""
 _ALWAYS = frozenset({"TIMER", "RET", "NUMPAD_ENTER"})
 """Events that count wherever the mouse is."""
 _PERIOD = 0.02
@@ -37,57 +32,16 @@ _CONSOLE_PERIOD = 5.0
 """Seconds between two lines about the progress."""
 
 
-@dataclass(frozen=True)
-class Step:
-    """One step of an operator.
-
-    Parameters
-    ----------
-    text
-        A text for the status bar.
-    work
-        Work for another thread, or None if Blender itself must do what comes next.
-    look
-        Shows the best result so far, and returns a text for the status bar. The text is empty if there is no result yet. The interface
-        calls it from time to time. None if the step cannot end early.
-    hand
-        The parts that the artist changes meanwhile; None: the artist can only move the view.
-    """
-
-    text: str
-    work: Callable[[Progress], None] | None = None
+class Step(NamedTuple):
+    text: str  # for the status bar
+    work: Callable[[Progress], None] | None = None  # for another thread; None: Blender itself must do what comes next
+    # Shows the best result so far, and returns a text for the status bar, empty if there is no result yet. The interface calls it from
+    # time to time. None if the step cannot end early.
     look: Callable[[], str] | None = None
-    hand: LiveParts | None = None
+    hand: Any = None  # the parts that the artist changes meanwhile; None: the artist can only move the view
 
 
-class AfterChain(EditMeshOperator):
-    """Gives an operator a poll, and ends the chain of its window: a button in the tool's header can be clicked while a wire is live."""
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode, and neither a chain is drawn in another window nor an operator takes steps."""
-        if not super().poll(context):
-            return False
-        is_drawn = any(chain.window != context.window for chain in chains)
-        if is_drawn:
-            cls.poll_message_set("A chain is being drawn in another window")
-        elif running:
-            cls.poll_message_set(f"{running[0].bl_label} is running")
-        return not is_drawn and not running
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Keep the chain that is being drawn, then run."""
-        self.end_chain()
-        return super().execute(context)
-
-    def end_chain(self) -> None:
-        """Keep the chain that is being drawn."""
-        for chain in tuple(chains):
-            chain.finish()
-            chain.notices.tell(self.report)
-
-
-class Stepwise(AfterChain):
+class Stepwise(EditMeshOperator):
     """Gives an operator `execute`, and `invoke` with a thread for its steps. The operator has `steps`.
 
     Attributes
@@ -98,6 +52,7 @@ class Stepwise(AfterChain):
         Whether the interface keeps drawing beside the steps.
     """
 
+    ends_chain = True
     enough = False
     is_beside = False
 
@@ -147,7 +102,6 @@ class Stepwise(AfterChain):
             pointer.progress_end()
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Take the steps while the interface keeps drawing."""
         from concurrent.futures import ThreadPoolExecutor
 
         if bpy.app.background or context.window is None:
@@ -175,7 +129,6 @@ class Stepwise(AfterChain):
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for a step, and take the next one. The view can be moved in the meantime."""
         if self not in running:
             return {"CANCELLED", "PASS_THROUGH"}
         listen(self.window)
@@ -210,8 +163,9 @@ class Stepwise(AfterChain):
             return {"PASS_THROUGH"}
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
-        is_open = hand is not None and not hand.is_over
-        is_waiting = not self._cancelled and (self._is_at_work or (is_open and not self._has_failed))
+        has_failed = not self._is_at_work and self._work is not None and self._work.exception() is not None
+        is_open = hand is not None and not hand.is_over and not has_failed
+        is_waiting = not self._cancelled and (self._is_at_work or is_open)
         if is_waiting:
             self._show()
         if is_waiting or not (event.type == "TIMER" or self._cancelled):
@@ -233,13 +187,7 @@ class Stepwise(AfterChain):
     def _is_at_work(self) -> bool:
         return self._work is not None and not self._work.done()
 
-    @property
-    def _has_failed(self) -> bool:
-        """Whether the step's work has ended on an error."""
-        return self._work is not None and self._work.done() and self._work.exception() is not None
-
     def cancel(self, _context: bpy.types.Context) -> None:
-        """End because Blender quits or loads a file."""
         self.end()
 
     def end(self) -> None:
@@ -251,7 +199,6 @@ class Stepwise(AfterChain):
         self._cleanup.close()
 
     def _advance(self) -> set[str]:
-        """Take the next step, or end."""
         result = {"CANCELLED"}
         try:
             if not self._cancelled:
@@ -262,7 +209,6 @@ class Stepwise(AfterChain):
         return result
 
     def _next(self) -> set[str]:
-        """Begin the next step, or return the operator's result."""
         if self._work is not None:
             self._work.result()
         try:
@@ -299,9 +245,7 @@ class Stepwise(AfterChain):
         if text == self._said:
             return
         self._said = text
-        # A function is shared by the status bars of all workspaces, and a text is not.
-        draw = None if text is None else lambda header, _context: header.layout.label(text=text)
-        bpy.data.workspaces[0].status_text_set(draw)
+        show_status(None if text is None else [("NONE", text)])
 
 
 def end_all() -> None:

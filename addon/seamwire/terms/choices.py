@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 
 class Term(NamedTuple):
-    """The name of a value, and its tooltip."""
-
     name: str
     tooltip: str
 
@@ -129,5 +127,4 @@ def items(table: Mapping[str, Term | Finishing | Metric], auto: str = "") -> tup
 
 
 def ignores_shape(metric: MetricName) -> bool:
-    """Return whether wires run as short as possible, so that no strength changes them."""
     return METRICS[metric].follows == ("euclidean",)

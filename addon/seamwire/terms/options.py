@@ -60,7 +60,6 @@ class Setting(NamedTuple):
 
 
 def _setting(default: object, *words: str, **others: object) -> Any:  # noqa: ANN401 - a field of any type
-    """Return a field of `Options` with its default and its setting."""
     return field(default=default, metadata={"setting": Setting(*words, **others)})
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from ..mesh.registration import together
 from ..mesh.settings import ADDON
-from ..operators.steps import running
+from ..tool.running import steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,7 +45,7 @@ def join(addon: ModuleType) -> None:
 
 
 def leave(addon: ModuleType) -> None:
-    for operator in tuple(running):
+    for operator in tuple(steps):
         if type(operator).__module__.startswith(f"{addon.__name__}."):
             operator.end()
     _joined.pop(addon, lambda: None)()

@@ -11,25 +11,21 @@ import bpy
 
 from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, preferences, settings
-from ..operators import keymaps
-from ..operators.edit_mesh_operator import NeedsEditMode
 from ..operators.island_operators import ISLAND_ITEMS
-from ..operators.keymaps import HELP_PANEL
 from ..terms.options import SETTINGS
-from ..words.corner import STEPS
+from ..tool import keymaps
+from ..tool.keymaps import HELP_PANEL
+from ..tool.running import NeedsEditMode
+from ..words.hints import STEPS
 from .toolbar import VIEWS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from ..mesh.registration import Change
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
 CONTEXT_MENU = "VIEW3D_MT_edit_mesh_context_menu"
 """Blender's menu that has only the entry for the tool."""
-
-
-def _menu(name: str, label: str, tooltip: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> type:
-    return type(name, (bpy.types.Menu,), {"__doc__": tooltip, "bl_idname": name, "bl_label": label, "draw": draw})
 
 
 def _draw_all(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -39,10 +35,6 @@ def _draw_all(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.separator()
     for name in SUBMENUS:
         menu.layout.menu(name)
-
-
-def _draw_finish(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    menu.layout.operator_enum("mesh.seamwire_finish", "finish")
 
 
 def _draw_network(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -68,23 +60,26 @@ def _draw_views(menu: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 
 _ALL, *_SUBMENUS = (
-    _menu("VIEW3D_MT_seamwire", "Seamwire", "Draw UV seams, or let Seamwire suggest them", _draw_all),
-    _menu(
-        "VIEW3D_MT_seamwire_finish",
-        "Finish",
-        "Make seams run exactly where wires across the surface run",
-        _draw_finish,
-    ),
-    _menu(
-        "VIEW3D_MT_seamwire_network",
-        "Network",
-        "Turn seams into wires, or save, load, transfer and repeat wires",
-        _draw_network,
-    ),
-    _menu("VIEW3D_MT_seamwire_islands", "Islands", "Select or store the islands that seams make", _draw_islands),
-    _menu("VIEW3D_MT_seamwire_views", "Views", "Choose what to show over the mesh", _draw_views),
+    type(f"VIEW3D_MT_{name}", (bpy.types.Menu,), {"__doc__": tooltip, "bl_label": label, "draw": draw})
+    for name, label, tooltip, draw in (
+        ("seamwire", "Seamwire", "Draw UV seams, or let Seamwire suggest them", _draw_all),
+        (
+            "seamwire_finish",
+            "Finish",
+            "Make seams run exactly where wires across the surface run",
+            lambda menu, _context: menu.layout.operator_enum("mesh.seamwire_finish", "finish"),
+        ),
+        (
+            "seamwire_network",
+            "Network",
+            "Turn seams into wires, or save, load, transfer and repeat wires",
+            _draw_network,
+        ),
+        ("seamwire_islands", "Islands", "Select or store the islands that seams make", _draw_islands),
+        ("seamwire_views", "Views", "Choose what to show over the mesh", _draw_views),
+    )
 )
-SUBMENUS = tuple(menu.bl_idname for menu in _SUBMENUS)
+SUBMENUS = tuple(menu.__name__ for menu in _SUBMENUS)
 
 
 class MESH_OT_seamwire_choose_tool(NeedsEditMode, bpy.types.Operator):
@@ -99,14 +94,14 @@ class MESH_OT_seamwire_choose_tool(NeedsEditMode, bpy.types.Operator):
         return bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
 
 
-def _draw_submenu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    menu.layout.separator()
-    menu.layout.menu(_ALL.bl_idname)
+def _entry(menu: str, kind: str, name: str) -> Change:
+    """Return the change that adds a separator and an entry to a menu of Blender's, which is another menu or an operator."""
 
+    def draw(own: bpy.types.Menu, _context: bpy.types.Context) -> None:
+        own.layout.separator()
+        getattr(own.layout, kind)(name)
 
-def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    menu.layout.separator()
-    menu.layout.operator(MESH_OT_seamwire_choose_tool.bl_idname)
+    return menu_entry(menu, draw)
 
 
 _GUIDES = ("guide/index.md", "../../docs/guide/index.md")
@@ -115,7 +110,6 @@ _GUIDES = ("guide/index.md", "../../docs/guide/index.md")
 
 @cache
 def guide() -> str:
-    """Return the address of the guide; an empty string if it is missing."""
     here = Path(__file__).parents[1]
     found = next((path.resolve() for place in _GUIDES if (path := here / place).is_file()), None)
     return "" if found is None else found.as_uri()
@@ -157,6 +151,6 @@ def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
 
 register, unregister = together(
     *classes(_ALL, *_SUBMENUS, VIEW3D_PT_seamwire_help, MESH_OT_seamwire_choose_tool),
-    *(menu_entry(name, _draw_submenu) for name in MENUS),
-    menu_entry(CONTEXT_MENU, _draw_entry),
+    *(_entry(name, "menu", _ALL.__name__) for name in MENUS),
+    _entry(CONTEXT_MENU, "operator", MESH_OT_seamwire_choose_tool.bl_idname),
 )

@@ -7,7 +7,8 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import ADDON, SeamwireSettings
-from ..operators import island_operators, keymaps
+from ..operators import island_operators
+from ..tool import keymaps
 from ..words.keys import Action
 from . import toolbar
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tool in the toolbar with its keys and its settings: the most important ones in its header, all in the sidebar and in Properties."""
+"""The tool in the toolbar: its keys, its hints in the status bar, and its settings in the header, the sidebar and Properties."""
 
 from __future__ import annotations
 
@@ -8,14 +8,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
+from bl_ui.space_statusbar import STATUSBAR_HT_header
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import ADDON, TOOL, settings, tool_is_active
-from ..operators import hover, island_operators
-from ..operators.keymaps import ACTION_OPERATOR, HELP_PANEL, NAME
+from ..operators import island_operators
 from ..terms.choices import ALONG
 from ..terms.options import SETTINGS, strength_name
-from ..words.keys import KEYS, Action
+from ..tool import draw
+from ..tool.keymaps import ACTION_OPERATOR, HELP_PANEL, NAME, items_of, key_of, user_keymap
+from ..tool.running import chains, draw_hints, steps
+from ..words.hints import idle_hints
+from ..words.keys import KEYS, Action, Key
 
 if TYPE_CHECKING:
     from ..terms.choices import Along
@@ -160,7 +164,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
     )
     bl_icon = str(_ICON) if _ICON.with_suffix(".draw.dat").exists() else "ops.mesh.knife_tool"
     bl_cursor = "CROSSHAIR"
-    bl_widget = hover.GROUP
+    bl_widget = draw.GROUP
     bl_keymap = (
         _key("CLICK"),
         _key("CLICK", ctrl=True),
@@ -181,16 +185,13 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
             {"properties": [("which", "WORST")]},
         ),
         ("wm.call_panel", {"type": "F1", "value": "PRESS"}, {"properties": [("name", HELP_PANEL)]}),
-        (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
+        (draw.HOVER, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 
-    @staticmethod
-    def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
-        draw_settings(context, layout)
+    draw_settings = staticmethod(lambda context, layout, _tool: draw_settings(context, layout))
 
 
 def _add_tool() -> None:
-    """Add the tool in a separate slot at the end of the toolbar."""
     if bpy.context.window_manager.keyconfigs.addon is not None:  # Blender as a module has no keymaps for a tool
         bpy.utils.register_tool(SeamwireTool)
 
@@ -283,9 +284,36 @@ def _empty(name: str) -> None:
         configurations.update()
 
 
+def draw_idle(header: bpy.types.Header, context: bpy.types.Context) -> None:
+    """Draw what the tool can do, before Blender's own hints. Draw nothing while another tool or operator has the mouse."""
+    # Blender 3.4 tells only of running operators of this add-on.
+    if not tool_is_active(context) or chains or steps or getattr(context.window, "modal_operators", ()):
+        return
+    keys: dict[str, Key] = {}
+    for item in items_of(user_keymap(context.window_manager, KEYMAP), OPERATOR):
+        if item.active:
+            keys.setdefault(item.properties.first, key_of(item))
+    draw_hints(header, idle_hints(keys))
+
+
+def _add_hints() -> None:
+    STATUSBAR_HT_header.prepend(draw_idle)
+    if hasattr(STATUSBAR_HT_header, "_draw_orig"):
+        # An add-on has shown its own status before. Blender goes back to this function after each such status.
+        STATUSBAR_HT_header._draw_orig = STATUSBAR_HT_header.draw
+
+
+def _remove_hints() -> None:
+    # While a chain is drawn, Blender keeps its own function aside.
+    draw = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
+    if draw_idle in draw._draw_funcs:
+        draw._draw_funcs.remove(draw_idle)
+
+
 register, unregister = together(
     *classes(MESH_OT_seamwire_key, VIEW3D_PT_seamwire_overlays, *map(_panel, GROUPS)),
     (lambda: None, _remove_keys),  # keys that were added before an error are removed too
     (_add_keys, lambda: None),
     (_add_tool, _remove_tool),
+    (_add_hints, _remove_hints),
 )

@@ -14,7 +14,7 @@ from mathutils import Matrix
 from ..core.network.picks import place_of, undirected
 from ..core.sketch.picture import LIVE, Role, SeedRole
 from ..terms.choices import FINISHES
-from ..words import corner
+from ..words import hints
 from .failures import failures
 from .gpu_draw import (
     ColoredFaces,
@@ -163,12 +163,12 @@ class Overlay:
             return
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
-            lines = () if self._looks.text == "NONE" else corner.lines(picture)
+            lines = () if self._looks.text == "NONE" else hints.lines(picture)
             high = draw_corner([(line, "") for line in lines], room[:2], scale)
             if self._looks.text == "STEPS":
                 left, bottom, width, height = room
                 above = (left, high, width, height - (high - bottom))
-                draw_legends([Legend(corner.FIRST_LINES)], above, scale, on_left=True)
+                draw_legends([Legend(hints.FIRST_LINES)], above, scale, on_left=True)
             draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     def _current_sheets(self, picture: Picture) -> list[Sheet]:

@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hints for the status bar: what each button and key does at the moment."""
+"""What is to be read of a drawing, and of the parts that Suggest shows: hints in the status bar, and the corner of the view."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..terms.choices import LOOPS, ignores_shape
+from ..terms.choices import KINDS, LOOPS, METRICS, PARTS_BY, ignores_shape
 from .keys import Action, Bindings, Key
-from .reports import count
+from .reports import count, percent, square_used
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Collection, Iterator, Mapping
 
+    from ..core.islands.uv_maps import SquareUse
+    from ..core.seams.seam_plan import PartChoice
     from ..core.sketch.picture import Picture
-    from ..terms.choices import LoopKind
+    from ..terms.choices import LoopKind, PartsBy
 
 Hint = tuple[str, str]
 """The name of one of Blender's icons, and a text."""
@@ -44,16 +46,6 @@ _IDLE = (
 """The gestures between chains: the name of the key, the text, and whether the mouse is dragged. Blender itself names a click."""
 
 
-@dataclass(frozen=True)
-class Status:
-    """The state of a chain, as far as the status bar describes it."""
-
-    picture: Picture  # of the object under the mouse
-    keys: Bindings
-    message: str = ""  # the result of the last key
-    mirror_offer: str = ""  # the letters of the axes that the mesh is symmetric over and that are not mirrored
-
-
 def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
     """Return what a newcomer can do before the first click, with the keys of the tool by the names of what they begin with."""
     found: list[Hint] = []
@@ -69,19 +61,22 @@ def _hint(icon: str, before: str, text: str) -> Hint:
     return icon or "NONE", f"{before}: {text}" if before else text
 
 
-def hints(status: Status) -> list[Hint]:
-    """Return at most `MOST` hints: first messages, then what a click does and how to end, then other keys by their usefulness."""
-    picture, keys = status.picture, status.keys
+def hints(picture: Picture, keys: Bindings, message: str = "", mirror_offer: str = "") -> list[Hint]:
+    """Return at most `MOST` hints: first messages, then what a click does and how to end, then other keys by their usefulness.
+
+    `message` is the result of the last key. `mirror_offer` has the letters of the axes that the mesh is symmetric over and not mirrored.
+    """
     found: list[Hint] = []
     work = picture.work
     if work.computing:
         waiting = f", {count(work.waiting, 'wire')} left" if work.waiting else ""
         found.append(("SORTTIME", f"Computing {min(99.0, 100.0 * work.progress):.0f} %{waiting}"))
-    if status.message:
-        found.append(("INFO", status.message))
+    if message:
+        found.append(("INFO", message))
     if picture.message:
         found.append(("ERROR", picture.message))
-    deeds = [*_click(picture), (Action.END, "End Chain"), (Action.KEYS, "Keys"), *_wires(picture), *_guides(status)]
+    ways = ((Action.END, "End Chain"), (Action.KEYS, "Keys"))
+    deeds = [*_click(picture), *ways, *_wires(picture), *_guides(picture, mirror_offer)]
     found += [_hint(*keys.icon(action), text) for action, text in deeds if keys.keys_of(action)]
     return found[:MOST]
 
@@ -133,10 +128,10 @@ def _wires(picture: Picture) -> Iterator[Deed]:
         yield Action.UNDO, "Undo"
 
 
-def _guides(status: Status) -> Iterator[Deed]:
-    picture, options = status.picture, status.picture.options
-    if status.mirror_offer and not options.mirror:
-        yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"
+def _guides(picture: Picture, mirror_offer: str) -> Iterator[Deed]:
+    options = picture.options
+    if mirror_offer and not options.mirror:
+        yield Action.MIRROR, f"Mirror? Symmetric on {mirror_offer}"
     if not ignores_shape(options.metric):
         yield Action.STRONGER, f"Strength {picture.strength:.3g}"
     yield Action.CLEAR, "Switch to Clear" if options.marking else "Switch to Mark"
@@ -146,3 +141,97 @@ def _guides(status: Status) -> Iterator[Deed]:
         yield Action.AVOID, "Avoid Stroke"
     if options.mirror:
         yield Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in options.mirror)}"
+
+
+# The corner of the view
+
+STEPS = (
+    ("MOUSE_LMB", "Click to begin, and click again to keep a wire"),
+    ("MOUSE_LMB_DRAG", "Drag to draw a seam by hand"),
+    ("MOUSE_LMB", "Hold Alt to pick a whole loop"),
+    ("MOUSE_LMB_DRAG", "Hold Shift and drag to guide the wires"),
+)
+"""Blender's icon of each gesture, and what it does."""
+FIRST_LINES = (*(text for _, text in STEPS), "Press F1 for all keys, and to hide these lines")
+"""The lines for newcomers."""
+
+
+def lines(picture: Picture) -> list[str]:
+    """Return what is to be read, top line first. Lines about islands appear once cuts part the mesh."""
+    found = []
+    options, offered, choice, islands = picture.options, picture.offered, picture.choice, picture.islands
+    if offered.kind is not None:
+        which = f" ({offered.number + 1} of {len(offered.kinds)})" if len(offered.kinds) > 1 else ""
+        found.append(LOOPS[offered.kind].capitalize() + which)
+    if picture.active is not None and choice.count > 1:
+        which = KINDS[METRICS[options.metric].follows[picture.active.follow]]
+        if choice.straight:
+            which = "Straight in the view"
+        found.append(f"{which} ({choice.number + 1} of {choice.count})")
+    if islands is not None and islands.parted:
+        gaps = f", {count(len(islands.gaps), 'gap')} in seams" if islands.gaps else ""
+        found.append(f"{count(islands.count, 'island')}{gaps}")
+        number = picture.pointed_island
+        if number is not None:
+            cuts = int(islands.missing[number])
+            needs = f", flat with {count(cuts, 'more cut')}" if cuts else ""
+            found.append(f"Island {number + 1}: {count(int(islands.sizes[number]), 'triangle')}{needs}")
+    way = "Along edges" if options.along == "EDGES" else "Across the surface"
+    default = next(iter(METRICS))
+    metric = "" if options.metric == default else METRICS[options.metric].name.lower()
+    strength = "" if ignores_shape(options.metric) else f"strength {picture.strength:.3g}"
+    found.append(", ".join(part for part in (way, strength, metric) if part))
+    modes = [
+        "" if options.marking else "Clearing seams",
+        "Mirror " + " ".join("XYZ"[axis] for axis in options.mirror) if options.mirror else "",
+        "X-ray" if options.xray else "",
+        "Snapping to features" if options.snap else "",
+    ]
+    said = ", ".join(mode for mode in modes if mode)
+    return [*found, said] if said else found
+
+
+@dataclass(frozen=True)
+class FoundMap:
+    """The best map so far of the parts that Suggest shows."""
+
+    stretch: float  # the mean, in percent
+    islands: int
+    length: str  # of all seams, in the scene's units
+    used: SquareUse | None = None  # of its islands, packed; None: not packed yet
+
+
+def rows_of_parts(
+    choice: PartChoice,
+    parts: int,
+    past: Mapping[str, int],
+    found: FoundMap | None,
+    is_final: bool,
+    automatic: Collection[PartsBy] = (),
+) -> list[tuple[str, str]]:
+    """Return what is to be read while Suggest shows parts, top line first: each text, and the keys that change it.
+
+    `past` counts the notches of the wheel that were turned past an end, by what they turn. `automatic` has what *Auto* has taken.
+    """
+
+    def beyond(what: str) -> str:
+        return f", {count(abs(past[what]), 'notch', 'notches')} past the end" if past.get(what) else ""
+
+    names = ", ".join(PARTS_BY[by].name for by in sorted(automatic))
+    taken = f" ({names})" if choice.by == "AUTO" and names else ""
+    islands = f"at least {choice.islands}{beyond('islands')}"
+    stretch = f"at most {percent(choice.stretch)}{beyond('stretch')}"
+    if found is not None:
+        islands, stretch = f"{found.islands}, {islands}", f"{percent(found.stretch)}, {stretch}"
+    rows = [
+        (f"Parts by: {PARTS_BY[choice.by].name}{taken}", "W"),
+        (f"Parts: {parts}, amount {100.0 * choice.amount:.0f} %{beyond('amount')}", "Wheel"),
+        (f"Islands: {islands}", "Shift Wheel"),
+        (f"Stretch: {stretch}", "Ctrl Wheel"),
+    ]
+    if found is not None:
+        if found.used is not None:
+            rows.append((square_used(found.used), ""))
+        rows.append((f"Seams: {found.length}", ""))
+        rows.append(("Search ended" if is_final else "Searching: this is the best map so far", "Enter: Keep"))
+    return rows

@@ -8,24 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-
-class Event(Protocol):
-    """The part of Blender's events that is read."""
-
-    type: str
-    value: str
-    ctrl: bool
-    shift: bool
-    alt: bool
-    oskey: bool
-    mouse_x: int
-    mouse_y: int
-    is_tablet: bool
+    Event = Any
+    """One of Blender's events."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +33,6 @@ class Key:
         return cls(event.type, event.value, *(int(getattr(event, name)) for name in MODIFIERS))
 
     def matches(self, event: Event, value: str) -> bool:
-        """Whether an event is this key, taken for one of another value."""
         pressed = "PRESS" if self.value in {"ANY", "CLICK"} else self.value
         return event.type == self.type and value == pressed and self.held(event)
 
@@ -185,7 +173,6 @@ class Bindings:
         return Bindings([*((action, ignoring(key, own)) for action, key in self._keys), *ending])
 
     def decode(self, event: Event, double: bool = False) -> Action | None:
-        """Return what an event asks for; `double`: it is the second press of a double click."""
         values = ("DOUBLE_CLICK", event.value) if double else (event.value,)
         return next((action for value in values for action, key in self._keys if key.matches(event, value)), None)
 
@@ -198,7 +185,6 @@ class Bindings:
         return any(key.modifiers and key.value != "DOUBLE_CLICK" and key.held(event) for key in keys)
 
     def text(self, action: Action) -> str:
-        """Return the keys of an action in words; an empty string where it has none."""
         keys = self.keys_of(action)
 
         def name(key: Key) -> str:
@@ -220,7 +206,6 @@ class Bindings:
         return key.icon, f"{key.modifiers} {wheel}".strip()
 
     def groups(self) -> dict[str, list[tuple[str, str]]]:
-        """Return each action with its keys, in words, for a table with the headings of the groups."""
         groups = dict.fromkeys(action.group for action in Action)
         bound = [action for action in Action if self.keys_of(action)]
         return {name: [(self.text(each), each.text) for each in bound if each.group == name] for name in groups}

@@ -25,10 +25,7 @@ class Notice(NamedTuple):
 
 
 class Notices:
-    """What waits to be reported, and what the status bar shows."""
-
     def __init__(self) -> None:
-        self.hint = ""  # the result of the last key, for the status bar
         self._waiting: list[Notice] = []
 
     def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
@@ -59,7 +56,6 @@ HALFWAY = "Stopped halfway"
 
 
 def summary(change: Change, marked: int, cleared: int) -> str:
-    """Return a report of what was drawn, changed and removed, and of the numbers of edges that this marked and cleared."""
     drawn_strokes, removed_strokes = change.strokes
     marks = any(wire.marks for wire in change.after.wires if wire.id in change.changed)
     parts = [
@@ -75,7 +71,6 @@ def summary(change: Change, marked: int, cleared: int) -> str:
 
 
 def not_cut(faces: int, wires: int) -> list[str]:
-    """Return the warnings for faces, and for wires or mirror images, that could not be cut."""
     why = "it does not run over the mesh" if wires == 1 else "they do not run over the mesh"
     found = [f"{count(faces, 'face')} could not be cut: the seams have gaps there"] if faces else []
     left_out = [f"{count(wires, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"] if wires else []
@@ -83,7 +78,6 @@ def not_cut(faces: int, wires: int) -> list[str]:
 
 
 def in_words(faults: MapFaults) -> list[str]:
-    """Return what is wrong with islands that were unwrapped. The list is empty if nothing is wrong."""
     parts = [
         (faults.overlapping, count(faults.overlapping, "island overlaps", "islands overlap")),
         (faults.flipped, f"{count(faults.flipped, 'face')} turned over"),
@@ -120,7 +114,6 @@ def _island_name(island: CostlyIsland) -> str:
 
 
 def percent(stretch: float) -> str:
-    """Return a stretch, in percent, with one decimal place if it is small."""
     digits = 0 if stretch >= 10.0 else 1
     return f"{stretch:.{digits}f}".removesuffix(".0") + " %"
 
@@ -131,7 +124,6 @@ def is_beyond(stretch: float, wanted: float) -> bool:
 
 
 def not_reached(stretches: Sequence[float], wanted: float) -> str:
-    """Return the report that the maps of objects have more stretch than wanted, in percent, or an empty text."""
     beyond = sum(is_beyond(stretch, wanted) for stretch in stretches)
     if not beyond:
         return ""
@@ -140,20 +132,7 @@ def not_reached(stretches: Sequence[float], wanted: float) -> str:
     return f"{percent(wanted)} was not reached"
 
 
-LIVE_HINTS = (
-    "Click Border: Drop or Keep",
-    "Click Part: Cut",
-    "Ctrl Z: Undo",
-    "Enter: Keep",
-)
-"""The artist's choices while the parts are shown, without those that the corner of the view has."""
-OTHER_KEY = "Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here"
-NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
-NOTHING_TO_REDO = "Nothing to redo"
-
-
 def parts_text(by: PartsBy, amount: float, number: int, stretch: float) -> str:
-    """Return the text on an amount of parts, from 0 to 1, their number, and the limit of the stretch in percent."""
     parts = "Parts" if by == "AUTO" else f"Parts by {PARTS_BY[by].name}"
     return f"{parts}: {100.0 * amount:.0f} %, {count(number, 'part')}    Stretch: up to {stretch:.3g} %"
 

@@ -14,7 +14,7 @@ from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire_networks.network_file import NetworkFile, NetworkFileError
-from seamwire_networks.placing import PLACED, Landmarks, NearestSurface, Shape, Similarity, doubt_between
+from seamwire_networks.placing import Landmarks, NearestSurface, Shape, Similarity, doubt_between
 from seamwire_networks.transfer import Transfer, transfer
 
 pytest.importorskip("seamwire_core")
@@ -347,21 +347,6 @@ def test_a_transfer_tells_its_progress_and_can_be_stopped(file: NetworkFile, pla
         transfer(file, target, place=place, source=SOURCE, pairs=pairs, progress=lambda fraction: fraction < 0.5)
 
 
-def test_measuring_distances_can_be_stopped_at_each_step(file: NetworkFile) -> None:
-    pairs = [(0, 0), (4, 6), (8, 12), (40 * 16, 59 * 23)]
-    for least in (0.01, 0.1, 0.2, 0.25):
-        seen: list[float] = []
-
-        def stop(fraction: float, least: float = least, seen: list[float] = seen) -> bool:
-            seen.append(fraction)
-            return fraction < least
-
-        with pytest.raises(native.load().Cancelled):
-            transfer(file, tube(23, 60), place="PAIRS", source=SOURCE, pairs=pairs, progress=stop)
-        assert seen[-1] >= least > seen[-2]
-        assert seen[-1] < PLACED
-
-
 @pytest.mark.parametrize("work", ["__init__", "find"])
 def test_a_search_for_the_nearest_point_can_be_stopped(work: str) -> None:
     asked: list[bool] = []
@@ -393,20 +378,6 @@ def test_strokes_come_too() -> None:
     (there,) = found.strokes
     assert not there.attracts
     assert np.allclose(there.points, SOURCE.points[rows], atol=0.01)
-
-
-def test_the_nearest_points_are_those_of_all_triangles() -> None:
-    shape = tube(9, 12)
-    draw = np.random.default_rng(3)
-    places = draw.normal(size=(40, 3))
-    _, points, gaps = NearestSurface(shape).nearest(places)
-    weights = draw.dirichlet([1.0, 1.0, 1.0], size=2000)
-    weights = np.concatenate([weights, np.eye(3)])
-    samples = np.einsum("sw,twd->tsd", weights, shape.points[shape.triangles]).reshape(-1, 3)
-    dense = np.array([np.linalg.norm(samples - place, axis=1).min() for place in places])
-    assert (gaps <= dense + 1e-9).all()
-    assert np.allclose(gaps, dense, atol=0.02)
-    assert np.allclose(gaps, np.linalg.norm(points - places, axis=1))
 
 
 def test_sides_that_face_away_do_not_count() -> None:

@@ -12,7 +12,7 @@ from seamwire.core.islands.uv_maps import SquareUse
 from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.core.seams.seam_wires import Gap
 from seamwire.terms.choices import KINDS
-from seamwire.words.corner import FoundMap, lines, rows_of_parts
+from seamwire.words.hints import FoundMap, lines, rows_of_parts
 from table import Table
 
 

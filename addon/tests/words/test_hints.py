@@ -9,7 +9,7 @@ from seamwire.core.network.network import Snap
 from seamwire.core.sketch.picture import Offered
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
-from seamwire.words.hints import MOST, Status, hints, idle_hints
+from seamwire.words.hints import MOST, hints, idle_hints
 from seamwire.words.keys import Action, Bindings, Key
 from setting import use
 
@@ -26,7 +26,7 @@ def session() -> Sketch:
 
 
 def first(session: Sketch, number: int | None = None, **more: str) -> list[str]:
-    return [text for _, text in hints(Status(session.picture, Bindings(), **more))][:number]
+    return [text for _, text in hints(session.picture, Bindings(), **more)][:number]
 
 
 def said(session: Sketch, **more: str) -> str:
@@ -108,7 +108,7 @@ def test_before_the_first_click_the_hints_teach_the_gestures() -> None:
 
 def test_the_hints_name_the_keys_as_they_are_bound(session: Sketch) -> None:
     keys = Bindings([(Action.CLEAR, Key("J", shift=1))])
-    shown = hints(Status(session.picture, keys))
+    shown = hints(session.picture, keys)
     assert ("EVENT_J", "Shift: Switch to Clear") in shown
     assert not any("Keys" in text for _, text in shown), "what has no key is not offered"
 
@@ -147,4 +147,4 @@ def test_what_does_not_apply_is_not_hinted_at(session: Sketch) -> None:
 @pytest.mark.parametrize(("kind", "text"), [("HANDLE", "Add Cut of a Handle"), ("PAST", "Add Strip Past Poles")])
 def test_offers_are_in_title_case_as_blender_has_it(session: Sketch, kind: str, text: str) -> None:
     picture = replace(session.picture, offered=Offered((kind,)))
-    assert text in "; ".join(said for _, said in hints(Status(picture, Bindings())))
+    assert text in "; ".join(said for _, said in hints(picture, Bindings()))

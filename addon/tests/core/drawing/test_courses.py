@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from fake_live import FakeLive, grid_points
 from seamwire.core.network.network import Snap, Way
-from seamwire.core.network.wires import Wire
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
 from setting import use
@@ -218,20 +217,6 @@ def test_a_click_becomes_a_wire_whatever_comes_next(deed: Callable[[Sketch], obj
     assert session.reports == []
 
 
-def test_a_loop_taken_before_it_is_known_comes_later() -> None:
-    known = Table().session
-    known.loop((14, 15))
-    session = late().session
-    session.click(0)
-    assert session.loop((14, 15))
-    session.click(3)
-    assert session.wires == ()
-    session.wait()
-    assert {wire.vertices for wire in session.wires} == {known.wires[0].vertices, (0, 1, 2, 3)}
-    loop = next(wire for wire in session.wires if wire.closed)
-    assert session.retrace(loop), "it has other offers"
-
-
 def test_a_line_that_is_not_computed_becomes_wires_that_can_be_edited() -> None:
     table = Table(fork_ready=(False, False))
     session = table.session
@@ -286,24 +271,3 @@ def test_the_end_waits_for_all_wires() -> None:
     session.finish()
     assert courses(session) == [(0, 1, 7)]
     assert session.reports == []
-
-
-def test_a_wire_that_is_final_asks_for_nothing_more() -> None:
-    session = Table().session
-    session.click(0)
-    session.click(8)
-    before = session.revision
-    assert not session.computing
-    assert not session.poll()
-    assert session.revision == before
-
-
-def test_a_shown_wire_is_kept_though_another_one_would_lead() -> None:
-    table = Table(ready=(False, True))
-    session = table.session
-    session.click(0)
-    session.hover(7)
-    session.click(7)
-    session.wait()
-    assert isinstance(session.wires[0], Wire)
-    assert courses(session) == [(0, 6, 7)]

@@ -227,12 +227,6 @@ def test_another_way_that_comes_to_an_edge_from_the_other_side_ends_where_the_ne
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21), (21, 27, 33)]
 
 
-def test_a_straight_wire_has_no_other_way() -> None:
-    session = corner().session
-    assert not session.retrace(session.wires[0])
-    assert "same edges" in session.reason
-
-
 def test_the_other_way_of_half_a_wire_is_computed() -> None:
     table = Table(fork_ready=(False, False))
     session = table.session

@@ -80,22 +80,6 @@ def spots(count: int = 40) -> list[tuple[float, float]]:
     return np.stack([dice.uniform(-0.35, 0.35, count), dice.uniform(-1.4, 1.4, count)], axis=1).tolist()
 
 
-@pytest.mark.parametrize("shift", [0.0, 0.05])
-def test_where_edges_are_long_the_picked_loop_comes_first_and_the_crossing_one_second(shift: float) -> None:
-    alt = Alt(limb(shift), 200.0)
-    for x, y in spots(15):
-        snap = alt.snap(x, y)
-        assert not snap.is_close_call
-        first, second = alt.over(x, y)
-        assert set(snap.pick) <= first
-        assert snap.crossing is not None
-        assert set(snap.crossing) <= second
-        is_lengthwise = abs(snap.pick[0] - snap.pick[1]) == AROUND
-        around = second if is_lengthwise else first
-        assert around == ring(min(around) // AROUND)
-        assert len(first & second) in {1, 2}, "they meet under the cursor, and perhaps at the back"
-
-
 def test_zoomed_out_the_ring_around_a_limb_comes_first_wherever_the_cursor_is() -> None:
     alt = Alt(limb(), 40.0)
     picked = set()
@@ -120,20 +104,6 @@ def test_a_chosen_direction_stays_while_the_cursor_moves_over_short_edges() -> N
     alt.session.hover(alt.snap(0.0, 0.0))
     first, _ = alt.over(0.1, 0.0)
     assert first == ring(min(first) // AROUND), "Alt was released: the likelier one again"
-
-
-def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
-    alt = Alt(arrays_of(grid_places(81), grid_polygons(81)), 150.0)
-    alt.over(0.013, 0.0)
-
-    def is_row() -> bool:
-        rows = {vertex // 81 for vertex in alt.session.offering.wire.vertices}
-        return len(rows) == 1
-
-    began = is_row()
-    for step in range(1, 30):
-        alt.over(0.013 + 0.007 * step, 0.009 * step)
-        assert is_row() == began
 
 
 def test_a_click_on_a_large_mesh_waits_for_the_faces() -> None:

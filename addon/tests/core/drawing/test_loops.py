@@ -77,11 +77,6 @@ def test_a_loop_across_seams_comes_later() -> None:
     assert first_offer((14, 15), seams=[(16, 22), (10, 11), (7, 6), (13, 19), (3, 9)]) != "CLOSED"
 
 
-def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
-    assert show(grid(seams=[(14, 15)]), (14, 20), "STRIP") == (14, 20, 26, 32)
-    assert show(grid(seams=[(14, 15), (20, 21)]), (14, 20), "STRIP") == (14, 20)
-
-
 def test_a_strip_ends_at_images_of_kept_wires() -> None:
     session = grid(shift=-2.5)
     use(session, mirror=[0])  # what is drawn on column 1 is on column 4 as well
@@ -101,12 +96,6 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
     assert show(session, (14, 20), "STRIP") == COLUMN
     use(session, mirror=[1])
     assert show(session, (15, 16), "STRIP") == ROW, "the plane is another one"
-
-
-def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
-    session = grid(seams=[(14, 20)])
-    show(session, (14, 20))
-    assert session.picture.offered.kinds == ("CLOSED", "WHOLE")
 
 
 def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:

@@ -38,14 +38,6 @@ def test_around_a_tube_loop_and_strip_are_one() -> None:
     assert session.wires[0].closed
 
 
-def test_along_a_limb_the_strip_comes_first_and_a_loop_with_corners_last() -> None:
-    session = tube()
-    kinds = [kind for kind, _ in hovered(session, (3 * AROUND + 2, 4 * AROUND + 2))]
-    assert kinds == ["STRIP", "CLOSED"]
-    session.loop((3 * AROUND + 2, 4 * AROUND + 2))
-    assert sorted(session.wires[0].vertices) == meridian(2)
-
-
 @pytest.mark.parametrize("ready", [False, True])
 def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bool) -> None:
     session = ball(ready=ready)
@@ -87,14 +79,6 @@ def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
         shown.append((session.picture.one(Role.OFFER).closed, set(session.picture.one(Role.OFFER).vertices)))
         session.next_candidate()
     assert (True, great_circle) in shown
-
-
-def test_on_a_sheet_the_strip_comes_before_the_way_around_a_face() -> None:
-    session = grid()
-    middle = SIZE // 2 * SIZE + SIZE // 2
-    assert [kind for kind, _ in hovered(session, (middle, middle + 1))] == ["STRIP", "CLOSED"]
-    session.loop((middle, middle + 1))
-    assert len(session.wires[0].vertices) == SIZE
 
 
 def test_a_ring_of_four_edges_around_a_limb_comes_first() -> None:
@@ -185,28 +169,6 @@ def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(ready: bool) 
     assert set(map(tuple, wire_between(session, "EDGES")[:, :2])) == GATE
 
 
-def test_along_edges_a_wire_follows_a_stroke_that_runs_askew_to_them() -> None:
-    session = grid()
-    session.draw_stroke(bow(), faces_under(bow()))
-    wire = wire_between(session, "EDGES")
-    gaps = np.linalg.norm(wire[:, None] - bow()[None], axis=2)
-    assert gaps.min(axis=1).max() < 1.0, "there is a vertex within .71 of an edge everywhere"
-    assert gaps.min(axis=0).max() < 1.0, "from end to end"
-
-
-def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
-    session = grid()
-    session.click(LEFT)
-    session.hover(RIGHT)
-    session.wait()
-    session.draw_stroke(gate(), faces_under(gate()))
-    session.wait()
-    assert set(map(tuple, session.picture.active.points[:, :2])) == GATE
-    session.undo()
-    session.wait()
-    assert session.picture.active.points[:, 1].max() == 15.0
-
-
 def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session = grid()
     session.click(LEFT)
@@ -294,12 +256,3 @@ def test_on_a_bung_its_rim_comes_first(inside: bool) -> None:
     spoke, triangle = (0, 40), next(row for row, corners in enumerate(triangles) if {0, 40} <= set(corners))
     kind, vertices = hovered(session, Snap(spoke, triangle=triangle, inside=inside))[0]
     assert (kind, vertices) == ("FLAT", list(range(8)))
-
-
-def test_on_a_large_lid_the_loop_through_the_edge_comes_first() -> None:
-    session = plate_with_bung()
-    triangles = session.triangles.tolist()
-    spoke, triangle = (32, 41), next(row for row, corners in enumerate(triangles) if {32, 41} <= set(corners))
-    kind, vertices = hovered(session, Snap(spoke, triangle=triangle))[0]
-    assert 41 in vertices
-    assert kind != "FLAT"

@@ -62,15 +62,6 @@ def test_one_click_cuts_the_limb_in_two(session: Sketch, triangles: NDArray[np.i
     assert session.wires == (), "one step"
 
 
-@pytest.mark.parametrize("vertex", range(4 * AROUND, 36 * AROUND, 3 * AROUND + 7))
-def test_wherever_the_limb_is_clicked_it_falls_in_two(
-    session: Sketch, triangles: NDArray[np.int32], vertex: int
-) -> None:
-    assert session.loop(vertex)
-    session.wait()
-    assert islands(session, triangles) == 2
-
-
 def test_a_click_within_a_face_does_so_too(session: Sketch, triangles: NDArray[np.int32]) -> None:
     triangle = 2 * AROUND * 10 + 3
     place = FacePoint(triangle, tuple(triangles[triangle].tolist()), (0.2, 0.3, 0.5))

@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands.islands import PLACES, IslandMaker
+from seamwire.core.islands.islands import IslandMaker
 
 
 def strip(count: int) -> NDArray[np.int32]:
@@ -54,9 +54,6 @@ def test_pieces_are_all_triangles_once() -> None:
             assert found.hues[found.labels[row]] == hue
 
 
-RAINBOW = np.array(PLACES)
-
-
 def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> None:
     def count(cuts: NDArray[np.int32], labels: NDArray[np.int32]) -> NDArray[np.int32]:
         return 10 * len(cuts) + np.arange(labels.max() + 1, dtype=np.int32)
@@ -73,33 +70,6 @@ def tinted(maker: IslandMaker, key: object, cuts: NDArray[np.int32]) -> NDArray[
     """Return the hue of each triangle."""
     maker.ask(key, cuts)
     return maker.answer.hues[maker.answer.labels]
-
-
-def test_hues_stay_whatever_is_cut_and_dropped_elsewhere() -> None:
-    count = 200
-    maker = IslandMaker(strip(count), labelled(count))
-    rng = np.random.default_rng(8)
-    cuts = set(rng.choice(np.arange(5, count), 25, replace=False).tolist())
-    before = tinted(maker, 0, cut_at(count, *sorted(cuts)))
-    for step in range(60):
-        # Add one, or drop one.
-        at = int(rng.integers(5, count))
-        at = at if at not in cuts and step % 2 == 0 else int(rng.choice(sorted(cuts)))
-        cuts ^= {at}
-        after = tinted(maker, step + 1, cut_at(count, *sorted(cuts)))
-        bounds = np.array([0, *sorted(cuts - {at}), count])
-        here = np.searchsorted(bounds, at, side="right")
-        touched = np.zeros(2 * count, dtype=bool)
-        touched[2 * bounds[here - 1] : 2 * bounds[here]] = True
-        left, right = 2 * bounds[here - 1], 2 * bounds[here]
-        assert (after[:left] == before[:left]).all() or len(set(after[left:right])) == 1
-        changed = (after != before) & ~touched
-        # Where two islands have become one, its neighbor may have a hue too much like it: that alone gives way.
-        assert len(np.unique(np.searchsorted(sorted(cuts), np.flatnonzero(changed) // 2, side="right"))) <= 1
-        newest = maker.answer
-        places = RAINBOW[newest.hues[newest.labels[::2]]]
-        assert np.abs(np.diff(places))[sorted(at - 1 for at in cuts)].min() >= 3
-        before = after
 
 
 def test_of_what_a_cut_leaves_the_largest_keeps_the_hue() -> None:

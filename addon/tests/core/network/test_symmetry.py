@@ -120,21 +120,6 @@ def noisy(size: int, by: float) -> np.ndarray:
     return centred(size) + np.random.default_rng(3).uniform(-by, by, (size**2, 3))
 
 
-@pytest.mark.parametrize("share", [0.01, 0.15])
-def test_a_mesh_with_vertices_that_have_no_partners_is_symmetric_still(share: float) -> None:
-    points = noisy(20, 0.05)
-    moved = np.random.default_rng(4).permutation(400)[: int(200 * share)]
-    points[moved, 2] += 1.0
-    assert Symmetry(points, grid_edges(20)).symmetric_axes == (0, 1)
-
-
-def test_what_has_no_symmetry_is_not_symmetric() -> None:
-    points = centred(40)
-    points[:, :2] = points[:, :2] @ [[0.96, 0.28], [-0.28, 0.96]]
-    points[:, 2] = 1.0 + 0.05 * (points[:, 0] + 3.0) ** 2
-    assert Symmetry(points, grid_edges(40)).symmetric_axes == ()
-
-
 def test_what_has_no_partner_is_drawn_on_one_side_and_can_be_asked_for() -> None:
     points = noisy(SIZE, 0.05)
     points[4] += [0.0, 0.0, 1.0]  # the partner of vertex 1
@@ -168,10 +153,6 @@ def test_vertices_without_a_place_have_no_partners_and_say_nothing(place: float)
 # Partners by topology
 
 
-def mirrored_numbers(size: int) -> np.ndarray:
-    return np.arange(size**2).reshape(size, size)[:, ::-1].ravel()
-
-
 def bent(size: int) -> np.ndarray:
     """Return the grid with what is right of the middle turned up, as an arm in a pose."""
     points = centred(size)
@@ -179,20 +160,6 @@ def bent(size: int) -> np.ndarray:
     points[:, 0] -= 0.7 * right
     points[:, 2] += 0.7 * right
     return points
-
-
-def test_in_a_pose_partners_are_found_by_topology() -> None:
-    by_place = Symmetry(bent(16), grid_edges(16))
-    assert (by_place.partners((0,)) >= 0).sum() == 32, "beside the plane alone"
-    for points in (bent(16), bent(15)):
-        size = int(len(points) ** 0.5)
-        symmetry = Symmetry(points, grid_edges(size), topology=True, triangles=grid_triangles(size))
-        assert (symmetry.partners((0,)) == mirrored_numbers(size)).all()
-        assert symmetry.symmetric_axes == (0, 1)
-        flat = points[:, 2] == 0.0
-        assert (symmetry.partners((2,)) == np.where(flat, np.arange(size**2), -1)).all()
-        assert symmetry.on_plane((0,)) == set(range(size // 2, size**2, size) if size % 2 else [])
-        assert (symmetry.partners((0, 1)) == np.arange(size**2)[::-1]).all()
 
 
 def test_in_a_pose_images_of_wires_across_the_surface_lie_on_the_mesh() -> None:

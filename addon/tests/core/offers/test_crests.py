@@ -62,18 +62,6 @@ def test_the_line_at_a_pick_is_the_one_that_crosses_there(crests: Crests) -> Non
     assert crests.line_at((20 * 41 + 15, 20 * 41 + 16)) is None
 
 
-def test_a_sphere_has_none() -> None:
-    rings, around = 20, 40
-    polar, turn = np.meshgrid(np.pi * (np.arange(rings) + 0.5) / rings, 2 * np.pi * np.arange(around) / around)
-    points = np.stack([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)], -1).reshape(-1, 3)
-    i, j = (part.ravel() for part in np.meshgrid(np.arange(rings - 1), np.arange(around)))
-    a, b = j * rings + i, (j + 1) % around * rings + i
-    triangles = np.stack([a, a + 1, b + 1, a, b + 1, b], axis=1).reshape(-1, 3)
-    none = Crests.on(sw, sw.Surface(points, triangles))
-    assert len(none) == len(none.segments) == 0
-    assert none.line_at(3) is None
-
-
 def crossed() -> Crests:
     """Return two lines that pass one vertex, 5, the second a valley."""
     return Crests(

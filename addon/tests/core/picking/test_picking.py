@@ -38,12 +38,6 @@ def moved(x: float, y: float, z: float) -> np.ndarray:
     return matrix
 
 
-def picked(found: Picker, *where: object, vertices_only: bool) -> object:
-    """Return what a click would take of the plain mesh."""
-    snap = found.snap(*where, vertices_only=vertices_only)
-    return None if snap is None else snap.pick
-
-
 def pixel(view: Camera, point: tuple[float, float, float]) -> tuple[float, float]:
     return tuple(view.to_pixels(np.array([point]))[0].tolist())
 
@@ -80,14 +74,6 @@ def test_the_direction_of_view_is_given_as_the_mesh_has_it() -> None:
     np.testing.assert_allclose(np.cross(along, (1.0, 0.0, -5.0)), 0.0, atol=1e-6)
     assert along[2] < 0.0
     assert find.seen_along(view, moved(0.0, 0.0, 6.0), 14) is None, "it lies behind the viewer"
-
-
-def test_hidden_faces_are_looked_through() -> None:
-    sheets = two_sheets()
-    at = pixel(from_above(), (0.25, 0.0, 0.0))
-    assert set(picked(Picker(sheets), from_above(), HERE, at, vertices_only=False)) == {12, 13}
-    lower = arrays_of(sheets.points, [*grid_polygons(5), *grid_polygons(5, first=25)], hidden=range(16))
-    assert set(picked(Picker(lower), from_above(), HERE, at, vertices_only=False)) == {37, 38}
 
 
 def test_an_object_flattened_to_nothing_is_not_picked() -> None:
@@ -263,18 +249,6 @@ def test_the_nearest_of_preferred_vertices_within_reach_is_taken_before_features
     assert find.snap(view, HERE, at, vertices_only=True, preferred=column, strength=strength) == Snap(40 * 81 + 40)
     away = beside(view, (0.0, 0.0, 0.0), 11.0, 1.0)
     assert find.snap(view, HERE, away, vertices_only=True, preferred=column).pick not in column
-
-
-def test_an_edge_is_crossed_by_the_one_at_its_end_nearer_to_the_cursor() -> None:
-    view, picker = from_above(), Picker(grid())
-
-    def crossing(x: float, y: float) -> tuple[int, ...]:
-        snap = picker.snap(view, HERE, pixel(view, (x, y, 0.0)), vertices_only=False, edges_only=True)
-        assert set(snap.pick) == {12, 13}
-        assert not snap.is_close_call
-        return tuple(sorted(snap.crossing))
-
-    assert crossing(0.15, 0.03) == (12, 17)
 
 
 def test_a_loop_learns_where_the_cursor_is() -> None:

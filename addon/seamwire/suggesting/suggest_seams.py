@@ -13,10 +13,10 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ..mesh.registration import classes, handler, together
+from ..operators.edit_mesh_operator import changing
+from ..operators.seam_operators import cut_wires
+from ..operators.steps import Step, Stepwise, end_all
 from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, PARTS_BY, items
-from .edit_mesh_operator import changing
-from .finish import cut_wires
-from .steps import Step, Stepwise, end_all
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -120,20 +120,22 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that have an effect."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "parts", slider=True)
-        layout.prop(self, "parts_by")
-        layout.prop(self, "distortion", slider=True)
-        layout.prop(self, "islands")
-        layout.prop(self, "front")
-        layout.prop(self, "along")
-        if self.along != "EDGES":
-            layout.prop(self, "finish")
-        layout.prop(self, "symmetric")
-        layout.prop(self, "selected")
-        layout.prop(self, "unwrap")
+        self.layout.use_property_split = True
+        shown = (
+            "parts",
+            "parts_by",
+            "distortion",
+            "islands",
+            "front",
+            "along",
+            "finish",
+            "symmetric",
+            "selected",
+            "unwrap",
+        )
+        for name in shown:
+            if name != "finish" or self.along != "EDGES":
+                self.layout.prop(self, name, slider=name in {"parts", "distortion"})
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Note the direction of the 3D view, and let the artist choose the parts while the interface stays responsive."""
@@ -142,7 +144,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         return super().invoke(context, event)
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Yield the steps of the search, then mark or cut."""
         search = self._read(context)
         search.notices.tell(self.report)
         if not search:
@@ -160,7 +161,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
         from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
-        from .suggest_live import LiveParts
+        from .live_parts import LiveParts
 
         with closing(PlanPreview()) as preview:
             live = LiveParts(search, preview, choice, lambda: self.enough)
@@ -187,29 +188,21 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
         return PartChoice(0.01 * self.parts, self.distortion, self.islands, edits_of_text(self.edits), self.parts_by)
 
-    def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
-        """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
-        if self.front == "NONE":
-            return None
-        if self.front == "FRONT":
-            return _BLENDERS_FRONT
-        return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
-
     def _read(self, context: bpy.types.Context) -> SeamSearch:
         from ..mesh.seam_search import SeamSearch, SearchOptions
 
+        # The direction to the viewer whom seams hide from, in world space, or None to hide from all sides.
+        front = None if self.front == "NONE" else _BLENDERS_FRONT
+        if self.front == "VIEW":
+            front = tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
-        options = SearchOptions(
-            along, finish, self.symmetric, self._front(context), self.distortion, self.islands, self.unwrap
-        )
+        options = SearchOptions(along, finish, self.symmetric, front, self.distortion, self.islands, self.unwrap)
         return SeamSearch(context.objects_in_mode_unique_data, options, self.selected)
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report. It unwraps even if no seam is needed."""
         if not search.has_wires:
-            unwrapped = self._unwrap(context, search) if self.unwrap else 0
-            self._report_outcome(search)
-            return {"FINISHED"} if unwrapped else {"CANCELLED"}
+            return {"FINISHED"} if self._end(context, search, self.unwrap) else {"CANCELLED"}
         if search.to_cut:
             first = partial(search.write, before_cuts=True)
             done = cut_wires(self, context, search.to_cut, crumb=search.crumb, live_unwrap=False, first=first)
@@ -217,23 +210,21 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
                 return done
         with changing():
             search.write(before_cuts=False)
-            self._unwrap(context, search)
-            self._report_outcome(search)
+            self._end(context, search)
         return {"FINISHED"}
 
-    def _report_outcome(self, search: SeamSearch) -> None:
-        outcome = search.outcome()
-        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
-
-    def _unwrap(self, context: bpy.types.Context, search: SeamSearch) -> int:
-        """Unwrap, and report what cannot be unwrapped. Return the number of unwrapped islands."""
+    def _end(self, context: bpy.types.Context, search: SeamSearch, unwraps: bool = True) -> int:
+        """Unwrap, and report the outcome. Return the number of unwrapped islands."""
         from ..core.base.native import NativeError
 
+        unwrapped = 0
         try:
-            return search.unwrap(context)
+            unwrapped = search.unwrap(context) if unwraps else 0
         except (ValueError, NativeError) as error:
             self.report({"WARNING"}, str(error))
-            return 0
+        outcome = search.outcome()
+        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
+        return unwrapped
 
 
 def _identity(search: SeamSearch) -> tuple[tuple[str, int, int], ...]:

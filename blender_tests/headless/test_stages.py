@@ -7,7 +7,7 @@ import ast
 import re
 from pathlib import Path
 
-from seamwire.operators.chain_state import TRANSITIONS, Cue, Stage
+from seamwire.tool.chain import STAGES
 
 ROOT = Path(__file__).parents[2]
 
@@ -21,26 +21,22 @@ def rows() -> list[list[str]]:
 
 
 def test_the_documentation_has_the_table_of_the_code() -> None:
-    documented = {
-        (Stage[stage], Cue[cue]): Stage[after] for stages, cue, after, _ in rows() for stage in stages.split(", ")
+    pairs = [(stage, after) for stages, after, _ in rows() for stage in stages.split(", ")]
+    assert {stage: {after for before, after in pairs if before == stage} for stage in STAGES} == {
+        stage: set(after) for stage, after in STAGES.items()
     }
-    assert documented == TRANSITIONS
-    assert sum(len(stages.split(", ")) for stages, *_ in rows()) == len(TRANSITIONS), "no row is there twice"
 
 
 def test_the_documentation_says_what_each_state_is() -> None:
     text = (ROOT / "docs/development/structure.md").read_text(encoding="utf-8")
-    for stage in Stage:
-        assert f"- `{stage.name}`: the chain {stage.value}." in text
+    assert re.findall("^- `([A-Z]+)`: the chain ", text, re.MULTILINE) == list(STAGES)
 
 
-def test_each_state_is_left_and_reached() -> None:
-    reached = {Stage.READY}
-    for _ in Stage:
-        reached |= {after for (before, _), after in TRANSITIONS.items() if before in reached}
-    assert reached == set(Stage)
-    assert {stage for stage, _ in TRANSITIONS} == set(Stage) - {Stage.CLOSED}
-    assert {cue for _, cue in TRANSITIONS} == set(Cue)
+def test_each_state_is_reached() -> None:
+    reached = {"READY"}
+    for _ in STAGES:
+        reached |= {after for before in reached for after in STAGES[before]}
+    assert reached == set(STAGES)
 
 
 def test_one_method_changes_the_state() -> None:

@@ -15,12 +15,12 @@ import bpy
 
 from ..core.base import native
 from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, parted_by_next, turned, turned_limit
+from ..tool import keymaps
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
-from ..words.corner import FoundMap, rows_of_parts
+from ..words.hints import FoundMap, rows_of_parts
 from ..words.keys import MODIFIER_KEYS, Action
-from ..words.reports import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
-from . import keymaps
+from ..words.reports import parts_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -60,15 +60,9 @@ class LiveParts:
     """The parts of meshes while an artist changes them. Once it `is_enough`, planning stops, and the best plan so far is taken."""
 
     def __init__(
-        self,
-        search: SeamSearch,
-        preview: PlanPreview,
-        choice: PartChoice,
-        is_enough: Callable[[], bool],
+        self, search: SeamSearch, preview: PlanPreview, choice: PartChoice, is_enough: Callable[[], bool]
     ) -> None:
-        self._search = search
-        self._preview = preview
-        self._is_enough = is_enough
+        self._search, self._preview, self._is_enough = search, preview, is_enough
         self._choices = [choice]  # each that was made, also those that were taken back
         self._at = 0  # the one that is shown
         self.is_kept = False  # whether the artist has confirmed the parts
@@ -103,17 +97,14 @@ class LiveParts:
 
     @property
     def choice(self) -> PartChoice:
-        """The choice that is shown."""
         return self._choices[self._at]
 
     @property
     def is_done(self) -> bool:
-        """Whether the parts are confirmed, and seams planned in them."""
         return self.is_kept and self.is_planned and not self._searches
 
     @property
     def is_planned(self) -> bool:
-        """Whether seams are planned in the parts that are shown."""
         return self._planned == self._version
 
     @property
@@ -130,8 +121,8 @@ class LiveParts:
 
     @property
     def hints(self) -> Sequence[str]:
-        """For the status bar: the artist's choices."""
-        return () if self.is_kept else LIVE_HINTS
+        """The artist's choices, without those that the corner of the view has."""
+        return () if self.is_kept else ("Click Border: Drop or Keep", "Click Part: Cut", "Ctrl Z: Undo", "Enter: Keep")
 
     def plan(self, progress: Progress) -> None:
         """Wait until the hand rests, then plan, unless it is done. Give up as soon as the parts have changed."""
@@ -157,8 +148,8 @@ class LiveParts:
         self._preview.poll()
         plans = {each: plan for each in self._search if (plan := each.best_so_far) is not None}
         new = [suggestion for suggestion, plan in plans.items() if self._seen.get(suggestion) is not plan]
+        self._seen.update((suggestion, plans[suggestion]) for suggestion in new)
         for suggestion in new:
-            self._seen[suggestion] = plans[suggestion]
             self._show(suggestion)
         is_whole = len(plans) == len(self._search)
         if new and is_whole:
@@ -176,7 +167,6 @@ class LiveParts:
         return "" if found is None else f"stretch {found.stretch:.0f} %, seams {found.length}"
 
     def _tell(self) -> None:
-        """Show the choice, and the map that it makes, in the corner of the views."""
         search = self._search
         rows = rows_of_parts(
             self.choice, search.part_count, self._past, self._found_map, self.is_planned, search.automatic
@@ -205,7 +195,7 @@ class LiveParts:
             self._tell()
             return set(_TAKEN)
         if place is not None and not keymaps.is_for_blender(event, context) and event.type not in MODIFIER_KEYS:
-            self._say(OTHER_KEY)
+            self._say("Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here")
             self._tell()
         return set()
 
@@ -245,17 +235,16 @@ class LiveParts:
             return
         at = (self._at if waits_at is None else waits_at) + by
         if not 0 <= at < len(self._choices):
-            self._say(NOTHING_TO_UNDO if by < 0 else NOTHING_TO_REDO)
+            self._say("Nothing to undo: the parts are as they were first shown" if by < 0 else "Nothing to redo")
             return
         if waiting is not None:
             self._drop_search()  # the new search goes on from where that one leads
-        choice = self._choices[at]
+        self._begin(partial(self._counted, self._choices[at]), at)
 
-        def search(progress: Progress) -> PartChoice:
-            self._search.count(choice, progress)
-            return choice
-
-        self._begin(search, at)
+    def _counted(self, choice: PartChoice, progress: Progress) -> PartChoice:
+        """Return a choice after its parts were found, so that they are kept."""
+        self._search.count(choice, progress)
+        return choice
 
     def _drop_search(self) -> None:
         self._searches.pop()
@@ -285,12 +274,7 @@ class LiveParts:
         self._begin(search)
 
     def _part_by_next(self) -> None:
-        def search(progress: Progress) -> PartChoice:
-            choice = parted_by_next(self._choices[: self._at + 1])
-            self._search.count(choice, progress)
-            return choice
-
-        self._begin(search)
+        self._begin(lambda progress: self._counted(parted_by_next(self._choices[: self._at + 1]), progress))
 
     def _turned(self, what: str, notches: int, progress: Progress) -> PartChoice:
         choice = self.choice
@@ -304,10 +288,10 @@ class LiveParts:
             found = turned(
                 choice.amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
             )
-        self._search.count(replace(choice, amount=found), progress)  # so that its parts are kept
+        after = self._counted(replace(choice, amount=found), progress)
         if found != choice.amount:
             self._turns[choice.amount, notches], self._turns[found, -notches] = found, choice.amount
-        return replace(choice, amount=found)
+        return after
 
     def _count(self, amount: float, progress: Progress) -> int:
         if amount not in self._counts:
@@ -342,14 +326,12 @@ class LiveParts:
             self._change_to(found, at)
 
     def find(self, progress: Progress) -> None:
-        """Find the parts that the artist has asked for first."""
         asked = self._searches[0]
         with suppress(self._cancelled):
             # Undo may take the search back.
             self._found = asked, asked[0](lambda done: progress(done) and asked in self._searches)
 
     def _change_to(self, choice: PartChoice, at: int | None) -> None:
-        """Go on to a choice that has a place among those that were made, or to a new one."""
         before = self.choice
         if choice == before:
             return
@@ -366,7 +348,6 @@ class LiveParts:
         self._change()
 
     def _edited(self, suggestion: Suggestion, at: Pointed) -> PartEdits:
-        """Return the edits of a mesh after a click."""
         edits = self.choice.edits.get(suggestion.name, PartEdits())
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
@@ -379,7 +360,6 @@ class LiveParts:
         return edits.keep(edges_of(self._dim(suggestion)[at.border - len(suggestion.borders)]))
 
     def _change(self) -> None:
-        """Choose the parts anew, and show them."""
         self._version += 1
         self._rests_at = time.monotonic() + _REST
         self._found_map = None
@@ -418,7 +398,6 @@ class LiveParts:
 
 
 def _scale_of(obj: bpy.types.Object) -> float:
-    """Return the mean scale of an object in the scene."""
     return abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
 
 

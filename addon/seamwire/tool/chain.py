@@ -5,38 +5,49 @@ from __future__ import annotations
 
 import traceback
 from contextlib import ExitStack, nullcontext, suppress
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
 import numpy as np
 
+from ..core.base.native import NativeError
 from ..core.network.drawn import Drawn, edges_after
 from ..core.network.network import Snap
 from ..core.network.picks import FacePoint
 from ..core.sketch.change import Change
-from ..mesh import finishes
+from ..mesh import edit_mesh, finishes
 from ..mesh import settings as chosen
+from ..mesh.unwrap import unwrap_changed
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
-from ..words.hints import Status, hints
+from ..words.hints import hints
 from ..words.keys import DoubleClicks
-from ..words.reports import Notices, count, summary
-from . import keymaps, undo_steps
-from .after_chain import unwrap_after_chain
-from .chain_state import TRANSITIONS, Cue, Stage, running
-from .chain_status import status_drawer
+from ..words.reports import Notices, count, in_words, summary
+from . import keymaps, running
+from .running import DRAW, EDIT, chains, show_status
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping, Sequence
     from contextlib import AbstractContextManager
 
     from ..core.sketch.sketch import Sketch
     from ..view.object_view import ObjectView
     from ..words.hints import Hint
-    from .drag_handlers import Hold
+    from .holds import Hold
 
 _Result = TypeVar("_Result")
 
+STAGES: Mapping[str, Sequence[str]] = {
+    "READY": ("PEEKING", "DRAWING", "CLOSED"),
+    "PEEKING": ("DRAWING", "CLOSED"),
+    "DRAWING": ("HOLDING", "ENDING", "OVER", "CLOSED"),
+    "HOLDING": ("DRAWING",),
+    "ENDING": ("DRAWING", "OVER", "CLOSED"),
+    "OVER": ("CLOSED",),
+    "CLOSED": (),
+}
+"""The states of a chain, and those that can follow each. `docs/development/structure.md` says what they are, and what leads to them."""
 TICK = 0.008
 """Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
 
@@ -47,88 +58,77 @@ class Chain:
     Attributes
     ----------
     stage
-        The state. Only `go` changes it.
+        The state, a key of `STAGES`. Only `go` changes it.
     hold
-        The thing that a pressed button drags; None: no button is held.
+        The thing that a pressed button drags, or None. In *HOLDING* there is one.
     peek
-        The key that shows the loop under the mouse while it is held, or an empty text.
+        The key that shows the loop under the mouse while it is held, or an empty text. In *PEEKING* there is one.
     drawn_on
         The object that is drawn on. None if nothing has been drawn since the last step of undo.
     has_kept
         Whether the chain has changed a mesh.
     failure
         The error on which the chain ends, if there is one.
+    titles
+        The titles of the steps of undo for what was done, `DRAW` or `EDIT`.
     notices
-        What there is to report when the chain ends, and the hint about the last key.
+        What there is to report when the chain ends.
+    hint
+        The result of the last key, for the status bar.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
         self.window, self.workspace, self.manager = context.window, context.workspace, context.window_manager
         self._mouse_window = context.window
         self.keys, self.clicks = keymaps.keys(context), DoubleClicks()
-        self.notices = Notices()
+        self.notices, self.hint = Notices(), ""
         self.drawn_on: ObjectView | None = None
         self.has_kept = False
         self.failure: Exception | None = None
         self._before = Drawn()  # what the object that is drawn on had at the last step
         self._seams = np.empty((0, 2), dtype=np.int32)  # its seams then
-        self._titles: set[str] = set()
+        self.titles: set[str] = set()
         self._is_saved = False
-        self.stage = Stage.READY
-        self.hold: Hold | None = None
-        self.peek = ""
+        self.stage, self.hold, self.peek = "READY", None, ""
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
         self._cleanup = ExitStack()
         self._switched: dict[str, tuple[object, object]] = {}  # settings before a key changed them, and since then
-        self._cleanup.callback(self._switch_back)
-        edited.chain = self._wake
-        self._cleanup.callback(_leave_objects)
-        self._cleanup.callback(self._leave_window)
-        chosen.listeners.append(self._on_settings)
-        self._cleanup.callback(chosen.listeners.remove, self._on_settings)
-        running.append(self)
-        self._cleanup.callback(running.remove, self)
+        edited.chain = partial(self._set_timer, True)  # nobody may move the mouse when a mesh changes
+        for leave in (self._switch_back, _leave_objects, self._leave_window):
+            self._cleanup.callback(leave)
+        for listed, own in ((chosen.listeners, self._on_settings), (chains, self)):
+            listed.append(own)
+            self._cleanup.callback(listed.remove, own)
 
     @property
     def session(self) -> Sketch:
-        """The session of the object that was pointed at last."""
         assert edited.front is not None
         return edited.front.session
 
     # Its state
 
-    def go(self, cue: Cue, hold: Hold | None = None, peek: str = "") -> None:
-        """Go on to the state after a cue, with what is held there.
-
-        Raises
-        ------
-        AssertionError
-            If `TRANSITIONS` does not allow it.
-        """
-        after = TRANSITIONS.get((self.stage, cue))
-        if after is None:
-            raise AssertionError(f"A chain cannot go on: {self.stage.name}, {cue.name}")
-        self.stage, self.hold, self.peek = after, hold, peek
+    def go(self, stage: str, hold: Hold | None = None, peek: str = "") -> None:
+        """Go on to another state, with what is held there. Raises AssertionError if `STAGES` does not allow it."""
+        if stage not in STAGES[self.stage]:
+            raise AssertionError(f"A chain cannot go on: {self.stage}, {stage}")
+        self.stage, self.hold, self.peek = stage, hold, peek
 
     def begin(self) -> None:
         """End as soon as nothing is live, because something is done from now on."""
-        if self.stage is Stage.READY:
-            self.go(Cue.BEGIN)
-        elif self.stage is Stage.PEEKING:
-            self.go(Cue.UNPEEK)
+        if self.stage in {"READY", "PEEKING"}:
+            self.go("DRAWING")
 
     def begin_anew(self) -> None:
         """Keep the drawn wires as a separate chain, if they are computed, and begin another one."""
-        if self.stage is Stage.ENDING:
-            self.go(Cue.BEGIN)
+        if self.stage == "ENDING":
+            self.go("DRAWING")
         if self._is_final:
             self.keep()
             self._switch_back()
 
     def switch(self, name: str, value: object) -> None:
-        """Change a setting until the chain ends."""
         before, _ = self._switched.get(name, (getattr(chosen.settings(), name), None))
         self._switched[name] = before, value
         setattr(chosen.settings(), name, value)
@@ -142,17 +142,10 @@ class Chain:
                 setattr(settings, name, before)
 
     def let_go(self) -> None:
-        """Cancel what a button holds."""
-        if self.stage is Stage.HOLDING:
-            hold = self.hold
-            self.go(Cue.LET_GO)
+        hold = self.hold
+        if hold is not None:
+            self.go("DRAWING")
             hold.cancel()
-
-    def cancel_drags(self) -> bool:
-        """Cancel what a button holds. Return whether there was something."""
-        is_held = self.stage is Stage.HOLDING
-        self.let_go()
-        return any([view.session.cancel() for view in edited.views()]) or is_held
 
     @property
     def _is_final(self) -> bool:
@@ -161,16 +154,17 @@ class Chain:
     def cancel(self) -> None:
         """Cancel what is dragged. If nothing is, end. While the end waits for wires, keep them as they are drawn."""
         self.begin()
-        if self.stage is Stage.ENDING:
-            for view in edited.views():
+        views = edited.views()
+        if self.stage == "ENDING":
+            for view in views:
                 view.session.finish(wait=False)
-        if not self.cancel_drags():
+        if not any([view.session.cancel() for view in views]):
             self.end()
 
     def end_now(self) -> None:
         """End before Blender has the event, because it may change the mesh. Blender stands still until the last wire is computed."""
         self.begin()
-        self.go(Cue.END)
+        self.go("OVER")
 
     def end(self) -> None:
         """End as soon as all wires are computed."""
@@ -178,19 +172,19 @@ class Chain:
         for view in edited.views():
             view.session.end_chain()
         if self._is_final:
-            self.go(Cue.END)
-        elif self.stage is not Stage.ENDING:
-            self.go(Cue.WAIT)
-            self.say("Ending when all wires are computed: Esc keeps them as they are drawn")
+            self.go("OVER")
+        elif self.stage != "ENDING":
+            self.go("ENDING")
+            self.hint = "Ending when all wires are computed: Esc keeps them as they are drawn"
 
     def settle(self) -> None:
         """End if nothing is live, and all wires are computed."""
-        if self.stage is Stage.ENDING:
+        if self.stage == "ENDING":
             self.end()
-        elif self.stage is Stage.DRAWING:
+        elif self.stage == "DRAWING":
             sketches = [view.session for view in edited.views()]
             if not any(one.network.seed is not None or one.is_held for one in sketches):
-                self.go(Cue.SETTLE if self._is_final else Cue.WAIT)
+                self.go("OVER" if self._is_final else "ENDING")
 
     # The objects
 
@@ -209,12 +203,8 @@ class Chain:
             self.drawn_on, self._before = view, view.session.drawn
             self._seams = view.mesh.arrays.seams
 
-    def note(self, title: str) -> None:
-        """Note what was done, by a title of `undo_steps`."""
-        self._titles.add(title)
-
     def keep(self) -> None:
-        """Keep what was drawn as a separate step of undo, and go on."""
+        """Keep what was drawn as a separate step of undo, and go on with the next."""
         with self._at_home():
             self._keep_wires()
         if self.failure is not None:
@@ -306,7 +296,7 @@ class Chain:
             fate = "are in the mesh as they were last saved" if is_known else "are in the mesh in part, undo leads back"
             self.has_kept = True
             if not at_once:
-                self.attempt(undo_steps.push, undo_steps.DRAW)
+                self.attempt(running.push, DRAW)
         self.notices.add("WARNING" if is_known else "ERROR", f"{error}: the wires of this chain {fate}")
         self.failure = None
 
@@ -327,8 +317,8 @@ class Chain:
             reports.clear()
         view = self.drawn_on
         change = None if view is None else Change(self._before, view.session.drawn)
-        title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
-        self._titles.clear()
+        title = EDIT if self.titles == {EDIT} else DRAW
+        self.titles.clear()
         if view is None or change is None or not (self._is_saved or change):
             self.drawn_on = None
             return
@@ -352,7 +342,7 @@ class Chain:
         if not at_once:
             if (marked or cleared or done) and bpy.context.mode == "EDIT_MESH":
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(bpy.context)) or ""
-            self.attempt(undo_steps.push, title)
+            self.attempt(running.push, title)
         told = f"{title}: {done or summary(change, marked, cleared)}"
         self.notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
 
@@ -408,27 +398,23 @@ class Chain:
         if view is not None and view.mesh.alive():
             view.session.adopt(self._before, view.mesh.plain_seams)
             if self._is_saved:
-                _write(view, adopt=True)
+                view.mesh.write(view.mesh.plan(), adopt=True)
+                view.renew()
                 self._is_saved = False
         self.close()
 
     def close(self) -> None:
-        """Put everything back. More than once does no harm."""
-        if self.stage is not Stage.CLOSED:
-            self.go(Cue.CLOSE)
+        if self.stage != "CLOSED":
+            self.go("CLOSED")
             self._cleanup.close()
 
     def _leave_window(self) -> None:
-        _set_status(None)
+        show_status(None)
         self.set_cursor("")
         if self.window in self.manager.windows.values():
             self._set_timer(False)
 
     # Its window
-
-    def say(self, hint: str) -> None:
-        """Show the result of a key in the status bar."""
-        self.notices.hint = hint
 
     def follow_mouse(self, window: bpy.types.Window) -> bool:
         """Take note of the window that has an event. Return whether the chain can be drawn there: a drag stays in its window."""
@@ -450,26 +436,19 @@ class Chain:
             self._mouse_window.cursor_modal_restore()
 
     def _set_timer(self, wanted: bool) -> None:
-        """Let Blender send an event at each tick, or no longer."""
         if wanted and self._timer is None:
             self._timer = self.manager.event_timer_add(TICK, window=self.window)
         elif not wanted and self._timer is not None:
             timer, self._timer = self._timer, None
             self.manager.event_timer_remove(timer)
 
-    def _wake(self) -> None:
-        """Let Blender send an event, because a mesh has changed. Nobody may move the mouse."""
-        self._set_timer(True)
-
     def hints(self) -> list[Hint]:
-        """Return what the status bar shows."""
         symmetric = edited.front.mesh.symmetric
         offers = symmetric if symmetric and not edited.front.options.mirror else ()
         axes = "".join("XYZ"[axis] for axis in offers)
-        return hints(Status(self.session.picture, self.keys, self.notices.hint, axes))
+        return hints(self.session.picture, self.keys, self.hint, axes)
 
     def show(self) -> None:
-        """Show the sessions as they are now."""
         session = self.session
         picture = (
             id(edited.front),
@@ -480,14 +459,14 @@ class Chain:
             session.computing,
             session.waiting,
             edited.front.mesh.symmetric,
-            self.notices.hint,
+            self.hint,
         )
         before, self._shown = self._shown, (picture, words)
         if before is None or picture != before[0]:
             edited.show()
             edited.redraw()
         if self._shown != before:
-            _set_status(status_drawer(self.hints()))
+            show_status(self.hints())
         # Last: what is shown may ask for more to be computed.
         self._set_timer(any(view.busy for view in edited.views()))
 
@@ -495,11 +474,6 @@ class Chain:
         self._shown = None
         if edited.front is not None:
             self.show()
-
-
-def _set_status(text: object) -> None:
-    # All workspaces share the status bar, and the one of the chain may have been deleted.
-    bpy.data.workspaces[0].status_text_set(text)
 
 
 def _leave_objects() -> None:
@@ -513,13 +487,7 @@ def _leave_objects() -> None:
     edited.show()
 
 
-def _write(view: ObjectView, adopt: bool) -> None:
-    view.mesh.write(view.mesh.plan(), adopt)
-    view.renew()
-
-
 def _apply(view: ObjectView, change: Change) -> str:
-    """Let the mesh do what a change asks, and return what was done, in words."""
     if not view.mesh.alive():
         left = sum(map(change.finishes, change.after.wires))
         return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
@@ -527,3 +495,14 @@ def _apply(view: ObjectView, change: Change) -> str:
     if done:
         edited.forget(view)
     return done
+
+
+def unwrap_after_chain(context: bpy.types.Context) -> str:
+    """Unwrap after a change of seams, as the tool or Blender is set. Return what went wrong, or an empty text."""
+    if not chosen.settings(context).unwrap:
+        edit_mesh.live_unwrap(context)
+        return ""
+    try:
+        return ", ".join(in_words(unwrap_changed(context).faults))
+    except (ValueError, NativeError) as error:
+        return str(error)

@@ -4,23 +4,19 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from enum import Enum, auto
-from typing import TYPE_CHECKING
+from enum import Enum
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..mesh import settings as chosen
 from ..view.viewport import place_of
 from ..words.keys import MODIFIER_KEYS, WHEEL, Action, Key
 from . import keymaps
-from .chain_state import Cue, Stage
-from .drag_handlers import LineHold, StrokeHold
 
 if TYPE_CHECKING:
     import bpy
 
     from ..view.viewport import Place
     from .chain import Chain
-    from .drag_handlers import Hold
 
 _HARMLESS = MODIFIER_KEYS.union(WHEEL)
 """Presses that change no mesh, wherever the mouse is."""
@@ -29,30 +25,19 @@ _HARMLESS = MODIFIER_KEYS.union(WHEEL)
 class Sign(Enum):
     """The meaning of an event that is not the action of a key."""
 
-    TICK = auto()
-    """Time for another look at running work."""
-    RELEASE = auto()
-    """The held button is released."""
-    AWAY = auto()
-    """The mouse moves where nothing is drawn."""
-    DRAG = auto()
-    """The mouse moves while a button is held."""
-    TRACE = auto()
-    """The mouse was here between two motions."""
-    HOVER = auto()
-    """The mouse moves over a view, or a modifier has changed."""
-    ZOOM = auto()
-    """The view comes closer or goes back."""
-    OTHER_TOOL = auto()
-    """The event does something else in Blender for which the chain must end."""
-    NOTHING = auto()
-    """The event is Blender's alone."""
-    REPEAT = auto()
-    """A key repeats that acts only once."""
+    TICK = "It is time for another look at running work"
+    RELEASE = "The held button is released"
+    AWAY = "The mouse moves where nothing is drawn"
+    DRAG = "The mouse moves while a button is held"
+    TRACE = "The mouse was here between two motions"
+    HOVER = "The mouse moves over a view, or a modifier has changed"
+    ZOOM = "The view comes closer or goes back"
+    OTHER_TOOL = "The event does something else in Blender for which the chain must end"
+    NOTHING = "The event is Blender's alone"
+    REPEAT = "A key repeats that acts only once"
 
 
-@dataclass(frozen=True)
-class Meant:
+class Meant(NamedTuple):
     """Blender's event, its meaning, and the place in a 3D view under the mouse, if there is one."""
 
     what: Action | Sign
@@ -65,25 +50,24 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Me
 
     An event may tell that a key or button is no longer held, although its release went elsewhere. Then the chain lets go first.
     """
-    is_released = event.type == chain.peek and event.value == "RELEASE"
-    if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
-        chain.go(Cue.UNPEEK)
-    is_press = event.value != "RELEASE" and not event.is_repeat
-    if chain.hold is not None and event.type == chain.hold.button and is_press:
+    is_release = event.value == "RELEASE"
+    if chain.peek and ((is_release and event.type == chain.peek) or event.type == "WINDOW_DEACTIVATE"):
+        chain.go("DRAWING")
+    if chain.hold is not None and event.type == chain.hold.button and not is_release and not event.is_repeat:
         chain.let_go()  # another window has received the release, and this press is not a drag's
+    hold = chain.hold
     if event.type == "TIMER":
         return Meant(Sign.TICK, event)
-    if chain.hold is not None and event.value in {"PRESS", "RELEASE"}:  # motions may come without the modifiers
-        chain.hold.follow_modifiers(event)
+    if hold is not None and event.value in {"PRESS", "RELEASE"}:  # motions may come without the modifiers
+        hold.follow_modifiers(event)
     # Another window may show another scene, where other objects are edited.
     is_same = context.view_layer == chain.window.view_layer and context.mode == "EDIT_MESH"
     can_draw = chain.follow_mouse(context.window) and is_same
     place = place_of(context.window, event) if can_draw else None
     double = chain.clicks.is_second(event, time.monotonic(), context.preferences)
-    hold = chain.hold
-    if hold is not None and event.type == hold.button and event.value == "RELEASE":
+    if hold is not None and is_release and event.type == hold.button:
         return Meant(Sign.RELEASE, event, place)
-    motion = _motion(event, hold)
+    motion = _motion(chain, event)
     if place is not None:
         if event.type.endswith("MOUSE") and hold is None and keymaps.on_gizmo(place, context.preferences):
             return Meant(Sign.NOTHING, event)
@@ -107,8 +91,8 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Me
 
 
 def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, double: bool) -> Action | Sign:
-    """Return what a key, a button or the wheel means."""
-    if _turns_wheel(chain, context, event):
+    is_wheel = event.type in WHEEL and not (event.shift or event.alt or event.oskey)
+    if is_wheel and chosen.preferences(context).wheel_switches and chain.session.seed is not None:
         return Sign.ZOOM if event.ctrl else Action.NEXT
     if keymaps.takes(Key.of(event), context):
         return Sign.NOTHING
@@ -120,24 +104,16 @@ def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, doubl
     return Sign.REPEAT if is_repeat else action
 
 
-def _motion(event: bpy.types.Event, hold: Hold | None) -> Sign | None:
+def _motion(chain: Chain, event: bpy.types.Event) -> Sign | None:
     """Return what a motion means, or None for a key or a button."""
+    held = None if chain.hold is None else chain.hold.what
     if event.type == "INBETWEEN_MOUSEMOVE":
-        if isinstance(hold, LineHold):
-            return Sign.TRACE
-        return Sign.DRAG if isinstance(hold, StrokeHold) else Sign.NOTHING
+        return {None: Sign.NOTHING, "SEED": Sign.NOTHING, "LINE": Sign.TRACE}.get(held, Sign.DRAG)
     if event.type == "MOUSEMOVE":
-        return Sign.HOVER if hold is None else Sign.DRAG
+        return Sign.HOVER if held is None else Sign.DRAG
     if event.type == "WINDOW_DEACTIVATE" or event.type.startswith("TIMER"):
         return Sign.NOTHING
     return Sign.HOVER if event.type in MODIFIER_KEYS else None
-
-
-def _turns_wheel(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> bool:
-    """Return whether the wheel turns, alone or with Ctrl, and the preferences give it to the candidates."""
-    if event.type not in WHEEL or event.shift or event.alt or event.oskey:
-        return False
-    return chosen.preferences(context).wheel_switches and chain.session.seed is not None
 
 
 def _is_over_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:

@@ -22,7 +22,6 @@ HELP_PANEL = "VIEW3D_PT_seamwire_help"
 
 
 def key_of(item: bpy.types.KeyMapItem) -> Key:
-    """Return the key of one of Blender's keymap items."""
     if item.any:
         return Key(item.type, item.value, -1, -1, -1, -1)
     # From 5.0 on a modifier of -1 means either; before, a flag tells.
@@ -59,14 +58,8 @@ def of_user(manager: bpy.types.WindowManager) -> Bindings:
     keymap = user_keymap(manager)
     if keymap is None:
         return Bindings()
-    items = items_of(keymap, ACTION_OPERATOR)
-    return Bindings(
-        [
-            (Action[item.properties.action], key_of(item))
-            for item in items
-            if item.active and item.key_modifier == "NONE"
-        ]
-    )
+    items = [item for item in items_of(keymap, ACTION_OPERATOR) if item.active and item.key_modifier == "NONE"]
+    return Bindings([(Action[item.properties.action], key_of(item)) for item in items])
 
 
 KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
@@ -98,40 +91,38 @@ def is_other(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
     return item is not None and not _is_harmless(item)
 
 
-def is_harmless(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
-    """Return whether an event moves the mouse or the view, saves the file, plays an animation, or does something alike."""
-    item = _item_for(event, manager)
-    return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (item is not None and _is_harmless(item))
-
-
 def is_for_blender(event: bpy.types.Event, context: bpy.types.Context) -> bool:
     """Return whether an event beside running steps goes to Blender: it is harmless, or is neither over a 3D view nor undoes anything."""
     from ..view.viewport import place_of
 
-    if is_harmless(event, context.window_manager):
+    item, place = _item_for(event, context.window_manager), place_of(context.window, event)
+    if event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (item is not None and _is_harmless(item)):
         return True
-    place = place_of(context.window, event)
-    if place is None:
-        return not undoes(event, context.window_manager)
-    return on_gizmo_with(event, place, context)
+    return not _undoes(item) if place is None else on_gizmo_with(event, place, context)
 
 
 def undoes(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
     """Return whether an event would undo or redo a step of Blender's."""
-    item = _item_for(event, manager)
+    return _undoes(_item_for(event, manager))
+
+
+def _undoes(item: bpy.types.KeyMapItem | None) -> bool:
     return item is not None and item.idname in {"ed.undo", "ed.redo", "ed.undo_history"}
 
 
 def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
     """Return whether a right click cancels what runs. It does not if the user's keymap selects or moves the view with it."""
-    keymap = user_keymap(manager, "3D View")
-    return keymap is None or not any(
-        item.active
-        and item.type == "RIGHTMOUSE"
+    return not any(
+        item.type == "RIGHTMOUSE"
         and item.idname.startswith(("view3d.select", *_NAVIGATION))
         and (item.any or not any(int(getattr(item, name)) == 1 for name in MODIFIERS))
-        for item in keymap.keymap_items
+        for item in _items_of_view(manager)
     )
+
+
+def _items_of_view(manager: bpy.types.WindowManager) -> list[bpy.types.KeyMapItem]:
+    keymap = user_keymap(manager, "3D View")
+    return [] if keymap is None else [item for item in keymap.keymap_items if item.active]
 
 
 def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.types.KeyMapItem | None:
@@ -162,14 +153,14 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
         by_command = getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY"
         if (key.oskey if by_command else key.alt) == 1:
             return True
-    keymap = user_keymap(context.window_manager, "3D View")
-    return keymap is not None and any(
-        item.active
-        and item.idname.startswith(_NAVIGATION)
-        and _button(item, inputs) == key.type
+    inwards, outwards = ("DOWN", "UP") if inputs.invert_zoom_wheel else ("UP", "DOWN")
+    wheel = {"WHEELINMOUSE": f"WHEEL{inwards}MOUSE", "WHEELOUTMOUSE": f"WHEEL{outwards}MOUSE"}
+    return any(
+        item.idname.startswith(_NAVIGATION)
+        and wheel.get(item.type, item.type) == key.type
         and item.key_modifier == "NONE"
         and (item.any or all(int(getattr(item, name)) in {-1, getattr(key, name)} for name in MODIFIERS))
-        for item in keymap.keymap_items
+        for item in _items_of_view(context.window_manager)
     )
 
 
@@ -178,19 +169,12 @@ def keys(context: bpy.types.Context) -> Bindings:
     return of_user(context.window_manager).without(lambda key: takes(key, context))
 
 
-def _button(item: bpy.types.KeyMapItem, inputs: bpy.types.PreferencesInput) -> str:
-    """Return the button of a keymap item, or the direction of the wheel."""
-    inwards, outwards = ("DOWN", "UP") if inputs.invert_zoom_wheel else ("UP", "DOWN")
-    return {"WHEELINMOUSE": f"WHEEL{inwards}MOUSE", "WHEELOUTMOUSE": f"WHEEL{outwards}MOUSE"}.get(item.type, item.type)
-
-
 def on_gizmo_with(event: bpy.types.Event, place: Place, context: bpy.types.Context) -> bool:
     """Return whether a button of the mouse is pressed on the navigation gizmo."""
     return event.type.endswith("MOUSE") and not event.type.startswith("WHEEL") and on_gizmo(place, context.preferences)
 
 
 def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:
-    """Return whether a place lies on the navigation gizmo or a button below it."""
     space = place.area.spaces.active
     if not (space.show_gizmo and space.show_gizmo_navigate):
         return False

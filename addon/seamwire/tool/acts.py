@@ -13,11 +13,10 @@ from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
-from . import keymaps, undo_steps
-from .chain_events import Meant, Sign
-from .chain_state import Cue, Stage
-from .drag_handlers import LineHold, SeedHold, StrokeHold
-from .keymaps import HELP_PANEL
+from . import keymaps
+from .events import Meant, Sign
+from .holds import Hold
+from .running import DRAW, EDIT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,6 +29,8 @@ if TYPE_CHECKING:
     from ..words.keys import Bindings
     from .chain import Chain
 
+    Act = Callable[[Chain, Meant], object]
+
 _OFFERED = (Action.LOOP, Action.BEND)
 """The preview while the modifiers of its click are held."""
 
@@ -39,7 +40,6 @@ _OFFERED = (Action.LOOP, Action.BEND)
 
 def hover(chain: Chain, given: Meant) -> None:
     """Show what a click, or a key after *W*, would take."""
-    assert given.place is not None
     loop, bend = (chain.keys.previews(action, given.event) for action in _OFFERED)
     view, snap = edited.find(given.place, plain=True) if loop or bend else edited.find_or_turned(given.place)
     edited.point_at(view, given.place)
@@ -54,51 +54,23 @@ def hover(chain: Chain, given: Meant) -> None:
 
 
 def rehover(chain: Chain, place: Place) -> None:
-    """Show what a click, or a key after *W*, would take now."""
     view, snap = edited.find_or_turned(place)
     chain.session.hover(snap if view is edited.front else None)
 
 
-def leave(chain: Chain, _given: Meant) -> None:
-    """Show nothing under a mouse that has left the view."""
-    if chain.session.target is not None and chain.hold is None:
-        chain.session.hover(None)
-
-
-def zoom(_chain: Chain, given: Meant) -> None:
-    """Zoom, because the wheel alone swaps candidates."""
-    assert given.place is not None
-    keymaps.zoom(bpy.context, given.place, given.event)
-
-
 def drag(chain: Chain, given: Meant) -> None:
-    """Let the held thing follow the mouse."""
-    assert chain.hold is not None and given.place is not None
-    threshold = drag_threshold(given.event, bpy.context.preferences)
-    if not chain.hold.move(given.place, threshold):
-        chain.go(Cue.LET_GO)
-
-
-def trace(chain: Chain, given: Meant) -> None:
-    """Let a line go through where the mouse was between two motions."""
-    assert isinstance(chain.hold, LineHold) and given.place is not None
-    chain.hold.follow(given.place)
+    if not chain.hold.move(given.place, drag_threshold(given.event, bpy.context.preferences)):
+        chain.go("DRAWING")
 
 
 def release(chain: Chain, given: Meant) -> None:
-    """Do what was meant by a press and a release: a click, or a drag."""
-    hold, title = chain.hold, ""
-    assert hold is not None
-    chain.go(Cue.RELEASE)
-    if not hold.is_drag and hold.snap is not None:
-        chain.session.click(hold.snap)
-        title = undo_steps.DRAW
-    elif hold.is_drag:
-        title = hold.end()
+    hold = chain.hold
+    chain.go("DRAWING")
+    title = hold.end()
     if title:
-        chain.note(title)
-    elif isinstance(hold, StrokeHold):
-        chain.say("Drag over the mesh to draw a stroke")
+        chain.titles.add(title)
+    else:
+        chain.hint = "Drag over the mesh to draw a stroke"
     if given.place is not None:
         rehover(chain, given.place)
 
@@ -109,40 +81,39 @@ def release(chain: Chain, given: Meant) -> None:
 def click(chain: Chain, given: Meant) -> None:
     """Take what is under the mouse, or begin to drag it."""
     action, place, event = given.what, given.place, given.event
-    assert place is not None
     view, snap = edited.find(place, plain=action in _OFFERED)
     if view is None or snap is None:
         return
     chain.begin()
     if view is not edited.front:
         chain.session.hover(None)
-    if action is Action.NEW_CHAIN or chain.stage is Stage.ENDING:
+    if action is Action.NEW_CHAIN or chain.stage == "ENDING":
         chain.begin_anew()
         # More wires may be under the mouse now, and the mesh may have been cut.
         view, snap = edited.find(place, plain=action in _OFFERED)
         if view is None or snap is None:
             return
     chain.draw_on(view)
-    session = view.session
+    session, title = view.session, DRAW
     if action is Action.NEW_CHAIN:
         session.start(snap)
         session.hover(snap)
-        chain.note(undo_steps.DRAW)
     elif action is Action.BEND:
         session.bend(snap)
-        chain.note(undo_steps.EDIT)
+        title = EDIT
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
-        chain.note(undo_steps.DRAW)
     elif session.network.seed is None and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
-        chain.go(Cue.PRESS, SeedHold(event, view, place, snap))
+        chain.go("HOLDING", Hold("SEED", event, view, place, snap))
+        return
     elif snap.to in {"MESH", "FEATURE", "SEAM"} or session.goes_on_from(snap):
-        chain.go(Cue.PRESS, LineHold(event, view, place, snap))
+        chain.go("HOLDING", Hold("LINE", event, view, place, snap))
+        return
     else:
         session.click(snap)
-        chain.note(undo_steps.DRAW)
+    chain.titles.add(title)
 
 
 def _is_loop(chain: Chain, session: Sketch, snap: Snap, event: bpy.types.Event) -> bool:
@@ -153,18 +124,15 @@ def _is_loop(chain: Chain, session: Sketch, snap: Snap, event: bpy.types.Event) 
 
 
 def begin_stroke(chain: Chain, given: Meant) -> None:
-    """Begin a stroke under the mouse."""
-    assert given.place is not None
     chain.begin()
-    if chain.stage is Stage.ENDING:
+    if chain.stage == "ENDING":
         chain.begin_anew()
     found, _ = edited.find(given.place)
     is_live = chain.session.seed is not None or chain.session.waiting
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
-    hold = StrokeHold(given.event, view, given.place)
-    hold.attracts, hold.scale = given.what is Action.GUIDE, bpy.context.preferences.system.ui_scale
-    chain.go(Cue.PRESS, hold)
+    scale = bpy.context.preferences.system.ui_scale
+    chain.go("HOLDING", Hold(given.what.name, given.event, view, given.place, scale=scale))
 
 
 def has_target(given: Meant, keys: Bindings) -> bool:
@@ -185,7 +153,6 @@ def _drawn_at(given: Meant) -> tuple[ObjectView | None, Wire | None, Stroke | No
 
     A wire that was just given another path counts as there until the mouse moves.
     """
-    assert given.place is not None
     view, snap = edited.find_or_turned(given.place)
     if snap is not None and snap.to == "WIRE":
         return view, snap.wire, None
@@ -197,32 +164,47 @@ def remove(chain: Chain, given: Meant) -> bool:
     view, wire, stroke = _drawn_at(given)
     if view is None or (wire is None and stroke is None):
         return False
-    assert given.place is not None
     chain.draw_on(view)
     if wire is not None:
         view.session.drop(wire)
     else:
         view.session.erase(stroke)
-    chain.note(undo_steps.EDIT)
+    chain.titles.add(EDIT)
     rehover(chain, given.place)
     return True
 
 
-def retrace(chain: Chain, given: Meant) -> bool:
-    """Let the wire under the mouse take its other path, and return whether there was one."""
-    assert given.place is not None
+def _remove(chain: Chain, given: Meant) -> bool:
+    """Remove what is under the mouse. If there is nothing, Blender's own meaning of the key changes the mesh."""
+    is_removed = remove(chain, given)
+    if not is_removed:
+        chain.end_now()
+    return not is_removed
+
+
+def retrace(chain: Chain, given: Meant) -> None:
+    """Let the wire under the mouse take its other path."""
     view, wire, _ = _drawn_at(given)
     if view is None or wire is None:
-        return False
+        return
     chain.draw_on(view)
     view.session.hover(Snap(wire.start, "WIRE", wire))
     view.session.retrace(wire)
     view.turned = wire, given.place
-    chain.note(undo_steps.EDIT)
-    return True
+    chain.titles.add(EDIT)
 
 
 # Keys
+
+
+def on_front(act: Callable[[Sketch], object]) -> Act:
+    """Return the function that lets the sketch of the object in front do something."""
+
+    def call(chain: Chain, _given: Meant) -> None:
+        chain.draw_on(edited.front)
+        act(chain.session)
+
+    return call
 
 
 def swap(chain: Chain, given: Meant) -> None:
@@ -238,34 +220,25 @@ def swap(chain: Chain, given: Meant) -> None:
 
 
 def change_strength(chain: Chain, given: Meant) -> None:
-    """Let wires follow the shape more or less."""
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
     name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
     if session.is_held:
-        chain.say("Finish moving the seed first")
+        chain.hint = "Finish moving the seed first"
     elif strength == session.options.strength:
-        chain.say(f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is")
+        chain.hint = f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is"
     else:
         setattr(chosen, name, strength)
-        chain.say(f"Strength {strength:.3g}")
+        chain.hint = f"Strength {strength:.3g}"
 
 
 def close(chain: Chain, given: Meant) -> None:
-    """Close the chain."""
-    assert given.place is not None
     chain.draw_on(edited.front)
     first = chain.session.network.closing_point
     chain.session.close(None if first is None else edited.front.seen_along(given.place.view, first))
 
 
-def extend(chain: Chain, _given: Meant) -> None:
-    """Show how the wire would run to its end, and at the second press keep it."""
-    chain.draw_on(edited.front)
-    chain.session.run_to_end(preview=chain.session.picture.one(Role.EXTENSION) is None)
-
-
-def toggle(name: str) -> Callable[[Chain, Meant], None]:
+def toggle(name: str) -> Act:
     """Return the function that changes a view or an aid which is on or off."""
 
     def act(chain: Chain, given: Meant) -> None:
@@ -280,15 +253,14 @@ def clear(chain: Chain, _given: Meant) -> None:
     """Clear seams, or mark them again, until the chain ends."""
     is_clearing = not settings().clear
     chain.switch("clear", is_clearing)
-    chain.say("Clears seams until the chain ends" if is_clearing else "Marks seams")
+    chain.hint = "Clears seams until the chain ends" if is_clearing else "Marks seams"
 
 
 def switch(chain: Chain, given: Meant) -> None:
     """Draw across the surface, or along edges, until the chain ends."""
-    assert given.place is not None
     is_across = chain.session.options.along == "EDGES"
     chain.switch("along", "SURFACE" if is_across else "EDGES")
-    chain.say(f"{'Across the surface' if is_across else 'Along edges'} until the chain ends")
+    chain.hint = f"{'Across the surface' if is_across else 'Along edges'} until the chain ends"
     rehover(chain, given.place)
 
 
@@ -298,14 +270,14 @@ def cycle_mirror(chain: Chain, _given: Meant) -> None:
     try:
         symmetric = mesh.symmetric_soon()
     except ValueError as error:
-        chain.say(str(error))
+        chain.hint = str(error)
         return
     if symmetric is None:
-        chain.say("Still checking the mesh for symmetry")
+        chain.hint = "Still checking the mesh for symmetry"
         return
     ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
     if len(ways) == 1 and not session.options.mirror:
-        chain.say("The mesh is not symmetric on X, Y or Z")
+        chain.hint = "The mesh is not symmetric on X, Y or Z"
         return
     now = ways.index(session.options.mirror) if session.options.mirror in ways else len(ways) - 1
     axes = ways[(now + 1) % len(ways)]
@@ -313,13 +285,7 @@ def cycle_mirror(chain: Chain, _given: Meant) -> None:
     for axis, name in enumerate("xyz"):
         setattr(mesh.obj.data, f"use_mirror_{name}", axis in axes)
     edited.follow_settings()
-    names = ", ".join("XYZ"[axis] for axis in axes)
-    chain.say(f"Mirrored on {names}" if axes else "Not mirrored")
-
-
-def show_keys(_chain: Chain, _given: Meant) -> None:
-    """Open the panel with all keys. The chain goes on when it closes."""
-    bpy.ops.wm.call_panel("INVOKE_DEFAULT", name=HELP_PANEL)
+    chain.hint = f"Mirrored on {', '.join('XYZ'[axis] for axis in axes)}" if axes else "Not mirrored"
 
 
 def undo(chain: Chain, _given: Meant) -> None:
@@ -329,26 +295,11 @@ def undo(chain: Chain, _given: Meant) -> None:
         chain.end()
 
 
-def redo(chain: Chain, _given: Meant) -> None:
-    """Redo within the chain."""
-    chain.draw_on(edited.front)
-    chain.session.redo()
-
-
 # The table
 
 
-def _remove(chain: Chain, given: Meant) -> bool:
-    """Remove what is under the mouse. If there is nothing, Blender's own meaning of the key changes the mesh."""
-    is_removed = remove(chain, given)
-    if not is_removed:
-        chain.end_now()
-    return not is_removed
-
-
 def _refuse(chain: Chain, _given: Meant) -> None:
-    """Do nothing, because the held button comes first."""
-    chain.say("Release the button first")
+    chain.hint = "Release the button first"
 
 
 def _end_held(chain: Chain, given: Meant) -> None:
@@ -359,7 +310,11 @@ def _end_held(chain: Chain, given: Meant) -> None:
         _refuse(chain, given)
 
 
-ACTS: dict[Action | Sign, Callable[[Chain, Meant], bool | None]] = {
+def _nothing(*_: object) -> None:
+    """Do nothing."""
+
+
+ACTS: dict[Action | Sign, Act] = {
     Action.CLICK: click,
     Action.NEW_CHAIN: click,
     Action.LOOP: click,
@@ -373,28 +328,29 @@ ACTS: dict[Action | Sign, Callable[[Chain, Meant], bool | None]] = {
     Action.STRONGER: change_strength,
     Action.WEAKER: change_strength,
     Action.CLOSE: close,
-    Action.EXTEND: extend,
+    # The first press shows how the wire would run, and the second one keeps it.
+    Action.EXTEND: on_front(lambda sketch: sketch.run_to_end(preview=sketch.picture.one(Role.EXTENSION) is None)),
     Action.CLEAR: clear,
     Action.XRAY: toggle("xray"),
     Action.MIRROR: cycle_mirror,
     Action.SWITCH: switch,
     Action.SNAP: toggle("snap"),
-    Action.KEYS: show_keys,
+    Action.KEYS: lambda *_: bpy.ops.wm.call_panel("INVOKE_DEFAULT", name=keymaps.HELP_PANEL),
     Action.UNDO: undo,
-    Action.REDO: redo,
+    Action.REDO: on_front(lambda sketch: sketch.redo()),
     Sign.TICK: lambda *_: edited.poll(),
     Sign.RELEASE: release,
-    Sign.AWAY: leave,
+    Sign.AWAY: lambda chain, _: chain.session.hover(None),
     Sign.DRAG: drag,
-    Sign.TRACE: trace,
+    Sign.TRACE: lambda chain, given: chain.hold.follow(given.place),
     Sign.HOVER: hover,
-    Sign.ZOOM: zoom,
+    Sign.ZOOM: lambda _, given: keymaps.zoom(bpy.context, given.place, given.event),
     Sign.OTHER_TOOL: lambda chain, _: chain.end_now(),
-    Sign.NOTHING: lambda *_: None,
-    Sign.REPEAT: lambda *_: None,
+    Sign.NOTHING: _nothing,
+    Sign.REPEAT: _nothing,
 }
-"""The function for each meaning. If it returns True, Blender has the event too."""
-WHILE_HELD: dict[Action | Sign, Callable[[Chain, Meant], bool | None]] = {
+"""The function for each meaning."""
+WHILE_HELD: dict[Action | Sign, Act] = {
     **dict.fromkeys(Action, _refuse),
     **{what: ACTS[what] for what in Sign},
     Action.XRAY: ACTS[Action.XRAY],
@@ -402,7 +358,8 @@ WHILE_HELD: dict[Action | Sign, Callable[[Chain, Meant], bool | None]] = {
     Action.CANCEL: lambda chain, _: chain.let_go(),
     Action.END: _end_held,
     Sign.OTHER_TOOL: _refuse,
-    Sign.HOVER: lambda *_: None,
+    Sign.HOVER: _nothing,
+    Sign.AWAY: _nothing,
 }
 """The function for each meaning while a button is held. A key works only on what is held, or on what is shown."""
 _FIRST = {**ACTS, Action.REMOVE: remove, Action.NEXT: retrace}
@@ -415,24 +372,27 @@ _UNSEEN = frozenset({Sign.NOTHING, Sign.TRACE, Sign.REPEAT})
 
 def act(chain: Chain, given: Meant) -> bool:
     """Do what an event asks for, show it, and return whether Blender is to have the event too."""
-    if given.what not in {Sign.TICK, Sign.RELEASE}:
+    what = given.what
+    if what not in {Sign.TICK, Sign.RELEASE}:
         chain.set_cursor("CROSSHAIR" if given.place else "")
-    if isinstance(given.what, Action):
-        chain.say("")
-        if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
-            chain.go(Cue.UNPEEK)
-    is_held = chain.stage is Stage.HOLDING
-    passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
+    if isinstance(what, Action):
+        chain.hint = ""
+        if chain.peek and what is not Action.NEXT:
+            chain.go("DRAWING")
+    is_held = chain.hold is not None
+    passes = (WHILE_HELD if is_held else ACTS)[what](chain, given)
     chain.settle()
-    if given.what not in _UNSEEN:
+    if what not in _UNSEEN:
         chain.show()
-    return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
+    if what is Action.REMOVE:
+        return bool(passes)
+    return what in _BLENDERS and not (is_held and what is Sign.OTHER_TOOL)
 
 
 def act_first(chain: Chain, given: Meant) -> None:
     """Do what begins a chain, under the mouse."""
     if given.what is Sign.HOVER:
-        chain.go(Cue.PEEK, peek=given.event.type)
+        chain.go("PEEKING", peek=given.event.type)
         hover(chain, given)
     elif given.place is not None:
         chain.begin()
