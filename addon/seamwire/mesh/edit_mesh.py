@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
-from functools import cached_property
+from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,8 @@ from ..core.storage.wire_labels import EdgeLabels
 from .registration import IS_OLD
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from mathutils import Matrix
     from numpy.typing import NDArray
     from seamwire_core import NearestPoints
@@ -201,10 +203,10 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 def read(obj: bpy.types.Object) -> Arrays:
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
     with nullcontext(obj.data) if IS_OLD else copied(obj.data) as shared:
-        columns, key = _Columns(shared), obj.active_shape_key
+        columns, key = partial(_read_column, shared), obj.active_shape_key
         # The active shape key is edited and seen, and the mesh holds the basis. Without keys the index is what it was with them.
         is_basis = key is None or obj.active_shape_key_index == 0
-        points = columns["points"] if is_basis else column(key.data, "co", np.float32, 3)
+        points = columns("points") if is_basis else column(key.data, "co", np.float32, 3)
         return _arrays(obj, obj.data, columns, points)
 
 
@@ -213,21 +215,23 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     data = evaluated.to_mesh()
     try:
-        columns = _Columns(data)
-        return _arrays(obj, data, columns, columns["points"]), columns["selected"]
+        columns = partial(_read_column, data)
+        return _arrays(obj, data, columns, columns("points")), columns("selected")
     finally:
         evaluated.to_mesh_clear()
 
 
-def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
+def _arrays(
+    obj: bpy.types.Object, data: bpy.types.Mesh, columns: Callable[[str], NDArray], points: NDArray[np.float32]
+) -> Arrays:
     points = points.astype(np.float64)
-    edges, visible = columns["edges"], ~columns["hidden edges"]
-    seams = edges[visible & columns["seams"]]
-    marked = tuple(edges[visible & marks] for marks in (columns["sharp edges"], _between_materials(data, columns)))
+    edges, visible = columns("edges"), ~columns("hidden edges")
+    seams = edges[visible & columns("seams")]
+    marked = tuple(edges[visible & marks] for marks in (columns("sharp edges"), _between_materials(data, columns)))
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError(obj)
-    hidden, corners, count = columns["hidden faces"], columns["corners"], len(data.polygons)
+    hidden, corners, count = columns("hidden faces"), columns("corners"), len(data.polygons)
     sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
     # Into triangles as Blender does, but into none without area. Reading a million of them from Blender takes most of a second.
     if sizes.max(initial=0) > 4:
@@ -247,45 +251,41 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
 
 
-def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
+def _between_materials(data: bpy.types.Mesh, columns: Callable[[str], NDArray]) -> NDArray[np.bool_]:
     found = np.zeros(len(data.edges), dtype=np.bool_)
     if len(data.materials) > 1:
         edges = column(data.loops, "edge_index", np.int32)
-        materials = np.repeat(columns["materials"], column(data.polygons, "loop_total", np.int32))
+        materials = np.repeat(columns("materials"), column(data.polygons, "loop_total", np.int32))
         order = np.argsort(edges, kind="stable")
         edges, materials = edges[order], materials[order]
         found[edges[1:][(edges[1:] == edges[:-1]) & (materials[1:] != materials[:-1])]] = True
     return found
 
 
-class _Columns:
-    """The data of a mesh. In newer versions of Blender, all of it is attributes, which are read ten times as fast as items."""
+_SOURCES = {
+    "points": ("vertices", "co", ("position",), np.float32, 3),
+    "selected": ("vertices", "select", (".select_vert",), np.bool_, 1),
+    "edges": ("edges", "vertices", (".edge_verts",), np.int32, 2),
+    "hidden edges": ("edges", "hide", (".hide_edge",), np.bool_, 1),
+    "seams": ("edges", "use_seam", ("uv_seam", ".uv_seam"), np.bool_, 1),
+    "sharp edges": ("edges", "use_edge_sharp", ("sharp_edge",), np.bool_, 1),
+    "corners": ("loops", "vertex_index", (".corner_vert",), np.int32, 1),
+    "materials": ("polygons", "material_index", ("material_index",), np.int32, 1),
+    "hidden faces": ("polygons", "hide", (".hide_poly",), np.bool_, 1),
+}
+"""For each name the items and their property, the names of the attribute, and what it holds. In newer versions of Blender, all data of a
+mesh is attributes, which are read ten times as fast as items."""
 
-    SOURCES = {
-        "points": ("vertices", "co", ("position",), np.float32, 3),
-        "selected": ("vertices", "select", (".select_vert",), np.bool_, 1),
-        "edges": ("edges", "vertices", (".edge_verts",), np.int32, 2),
-        "hidden edges": ("edges", "hide", (".hide_edge",), np.bool_, 1),
-        "seams": ("edges", "use_seam", ("uv_seam", ".uv_seam"), np.bool_, 1),
-        "sharp edges": ("edges", "use_edge_sharp", ("sharp_edge",), np.bool_, 1),
-        "corners": ("loops", "vertex_index", (".corner_vert",), np.int32, 1),
-        "materials": ("polygons", "material_index", ("material_index",), np.int32, 1),
-        "hidden faces": ("polygons", "hide", (".hide_poly",), np.bool_, 1),
-    }
-    """For each name the items and their property, the names of the attribute, and what it holds."""
 
-    def __init__(self, data: bpy.types.Mesh) -> None:
-        self._data = data
-
-    def __getitem__(self, name: str) -> NDArray:
-        items, key, attributes, dtype, width = self.SOURCES[name]
-        items = getattr(self._data, items)
-        if IS_OLD:
-            return column(items, key, dtype, width)
-        found = next((one for one in attributes if one in self._data.attributes), None)
-        if found is None or not len(items):  # there may be no attribute where all values are 0
-            return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
-        return column(self._data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
+def _read_column(data: bpy.types.Mesh, name: str) -> NDArray:
+    items, key, attributes, dtype, width = _SOURCES[name]
+    items = getattr(data, items)
+    if IS_OLD:
+        return column(items, key, dtype, width)
+    found = next((one for one in attributes if one in data.attributes), None)
+    if found is None or not len(items):  # there may be no attribute where all values are 0
+        return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
+    return column(data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
 
 
 def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
