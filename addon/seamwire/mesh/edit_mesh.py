@@ -116,7 +116,10 @@ class Cage:
         return edge is not None and edge.seam
 
     def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
-        """Return the labelled edges in the order of their numbers. They are looked for `among` some edges, or in what `read` has stored."""
+        """Return the labelled edges in the order of their numbers.
+
+        If edges are given that include all with a label, only these are looked at. After `read`, the mesh can tell which edges have one.
+        """
         bm = self.number_bmesh()
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:

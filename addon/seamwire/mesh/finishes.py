@@ -142,7 +142,7 @@ def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
         for _, vertex in plan.left_out:
             raise CutError(f"A wire does not run over the mesh near vertex {vertex}")
         raise CutError("Nothing to cut: every wire stays inside one face")
-    # An error in splitting edges and faces so comes before anything is changed. Joining small islands and storing wires are not tried.
+    # A copy is cut first, so that an error in splitting comes before anything is changed. Joining islands and storing wires are not tried.
     bm = mesh.cage.number_bmesh().copy()
     try:
         _cut_faces(bm, plan, [])
