@@ -25,7 +25,7 @@ from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
 from seamwire.core.sketch.picture import Picture, Role, ShownWire, shown_seeds
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.pose import Pose
+from seamwire.mesh.edit_mesh import Pose
 from seamwire.terms.options import Options
 from seamwire.view.object_view import ShownIslands
 from seamwire.view.overlay import Overlay

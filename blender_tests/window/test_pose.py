@@ -12,7 +12,7 @@ import ui as driver
 from desk import WHITE, Desk, choose, draw, leave, reset_settings, shows
 from scene import add_grid, animate, chain, edit, seams
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.pose import Pose
+from seamwire.mesh.edit_mesh import Pose
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 

@@ -14,8 +14,8 @@ from seamwire.core.islands.uv_maps import Stretch
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.edit_mesh import Pose
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.pose import Pose
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.layers import CrestView, StretchHeat

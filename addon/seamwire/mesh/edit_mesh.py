@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The edit mesh as arrays, and seams back into it.
+"""The edit mesh as arrays, seams back into it, and where Blender shows it.
 
 Vertices, edges and faces carry the numbers that the edit mesh counts them by, hidden ones included; hidden faces and
-edges are left out of what wires may run on.
+edges are left out of what wires may run on. Modifiers such as an armature with *On Cage* show the mesh elsewhere.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
+from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -17,20 +18,26 @@ import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.base.geometry import without_flat_triangles
+from ..core.base.geometry import barycentric, without_flat_triangles
 from ..core.base.mesh_arrays import Arrays
 from ..core.network.picks import vertices_of
 from ..core.storage.wire_labels import EdgeLabels
 from .registration import IS_OLD
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from mathutils import Matrix
     from numpy.typing import NDArray
+    from seamwire_core import NearestPoints
 
     from ..core.network.picks import Pick
 
 LABELS = ".seamwire"
 """The layer of the edges that holds their labels, see `core.wire_labels`. Blender does not show names that begin so."""
+
+_MOST_CURVES = 2_000
+"""Curves whose triangles are remembered."""
 
 
 class NothingVisibleError(ValueError):
@@ -109,7 +116,10 @@ class Cage:
         return edge is not None and edge.seam
 
     def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
-        """Return the labelled edges in the order of their numbers. They are looked for `among` some edges, or in what `read` has stored."""
+        """Return the labelled edges in the order of their numbers.
+
+        If edges are given that include all with a label, only these are looked at. After `read`, the mesh can tell which edges have one.
+        """
         bm = self.number_bmesh()
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
@@ -196,10 +206,10 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 def read(obj: bpy.types.Object) -> Arrays:
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
     with nullcontext(obj.data) if IS_OLD else copied(obj.data) as shared:
-        columns, key = _Columns(shared), obj.active_shape_key
+        columns, key = partial(_read_column, shared), obj.active_shape_key
         # The active shape key is edited and seen, and the mesh holds the basis. Without keys the index is what it was with them.
         is_basis = key is None or obj.active_shape_key_index == 0
-        points = columns["points"] if is_basis else column(key.data, "co", np.float32, 3)
+        points = columns("points") if is_basis else column(key.data, "co", np.float32, 3)
         return _arrays(obj, obj.data, columns, points)
 
 
@@ -208,21 +218,23 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     data = evaluated.to_mesh()
     try:
-        columns = _Columns(data)
-        return _arrays(obj, data, columns, columns["points"]), columns["selected"]
+        columns = partial(_read_column, data)
+        return _arrays(obj, data, columns, columns("points")), columns("selected")
     finally:
         evaluated.to_mesh_clear()
 
 
-def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
+def _arrays(
+    obj: bpy.types.Object, data: bpy.types.Mesh, columns: Callable[[str], NDArray], points: NDArray[np.float32]
+) -> Arrays:
     points = points.astype(np.float64)
-    edges, visible = columns["edges"], ~columns["hidden edges"]
-    seams = edges[visible & columns["seams"]]
-    marked = tuple(edges[visible & marks] for marks in (columns["sharp edges"], _between_materials(data, columns)))
+    edges, visible = columns("edges"), ~columns("hidden edges")
+    seams = edges[visible & columns("seams")]
+    marked = tuple(edges[visible & marks] for marks in (columns("sharp edges"), _between_materials(data, columns)))
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError(obj)
-    hidden, corners, count = columns["hidden faces"], columns["corners"], len(data.polygons)
+    hidden, corners, count = columns("hidden faces"), columns("corners"), len(data.polygons)
     sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
     # Into triangles as Blender does, but into none without area. Reading a million of them from Blender takes most of a second.
     if sizes.max(initial=0) > 4:
@@ -242,45 +254,41 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
 
 
-def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
+def _between_materials(data: bpy.types.Mesh, columns: Callable[[str], NDArray]) -> NDArray[np.bool_]:
     found = np.zeros(len(data.edges), dtype=np.bool_)
     if len(data.materials) > 1:
         edges = column(data.loops, "edge_index", np.int32)
-        materials = np.repeat(columns["materials"], column(data.polygons, "loop_total", np.int32))
+        materials = np.repeat(columns("materials"), column(data.polygons, "loop_total", np.int32))
         order = np.argsort(edges, kind="stable")
         edges, materials = edges[order], materials[order]
         found[edges[1:][(edges[1:] == edges[:-1]) & (materials[1:] != materials[:-1])]] = True
     return found
 
 
-class _Columns:
-    """The data of a mesh. In newer versions of Blender, all of it is attributes, which are read ten times as fast as items."""
+_SOURCES = {
+    "points": ("vertices", "co", ("position",), np.float32, 3),
+    "selected": ("vertices", "select", (".select_vert",), np.bool_, 1),
+    "edges": ("edges", "vertices", (".edge_verts",), np.int32, 2),
+    "hidden edges": ("edges", "hide", (".hide_edge",), np.bool_, 1),
+    "seams": ("edges", "use_seam", ("uv_seam", ".uv_seam"), np.bool_, 1),
+    "sharp edges": ("edges", "use_edge_sharp", ("sharp_edge",), np.bool_, 1),
+    "corners": ("loops", "vertex_index", (".corner_vert",), np.int32, 1),
+    "materials": ("polygons", "material_index", ("material_index",), np.int32, 1),
+    "hidden faces": ("polygons", "hide", (".hide_poly",), np.bool_, 1),
+}
+"""For each name the items and their property, the names of the attribute, and what it holds. In newer versions of Blender, all data of a
+mesh is attributes, which are read ten times as fast as items."""
 
-    SOURCES = {
-        "points": ("vertices", "co", ("position",), np.float32, 3),
-        "selected": ("vertices", "select", (".select_vert",), np.bool_, 1),
-        "edges": ("edges", "vertices", (".edge_verts",), np.int32, 2),
-        "hidden edges": ("edges", "hide", (".hide_edge",), np.bool_, 1),
-        "seams": ("edges", "use_seam", ("uv_seam", ".uv_seam"), np.bool_, 1),
-        "sharp edges": ("edges", "use_edge_sharp", ("sharp_edge",), np.bool_, 1),
-        "corners": ("loops", "vertex_index", (".corner_vert",), np.int32, 1),
-        "materials": ("polygons", "material_index", ("material_index",), np.int32, 1),
-        "hidden faces": ("polygons", "hide", (".hide_poly",), np.bool_, 1),
-    }
-    """For each name the items and their property, the names of the attribute, and what it holds."""
 
-    def __init__(self, data: bpy.types.Mesh) -> None:
-        self._data = data
-
-    def __getitem__(self, name: str) -> NDArray:
-        items, key, attributes, dtype, width = self.SOURCES[name]
-        items = getattr(self._data, items)
-        if IS_OLD:
-            return column(items, key, dtype, width)
-        found = next((one for one in attributes if one in self._data.attributes), None)
-        if found is None or not len(items):  # there may be no attribute where all values are 0
-            return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
-        return column(self._data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
+def _read_column(data: bpy.types.Mesh, name: str) -> NDArray:
+    items, key, attributes, dtype, width = _SOURCES[name]
+    items = getattr(data, items)
+    if IS_OLD:
+        return column(items, key, dtype, width)
+    found = next((one for one in attributes if one in data.attributes), None)
+    if found is None or not len(items):  # there may be no attribute where all values are 0
+        return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
+    return column(data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
 
 
 def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
@@ -371,3 +379,87 @@ def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
         bm.faces[face].select = True
     bm.select_flush_mode()
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+class Pose:
+    """Where the vertices of an edit mesh are seen, and any point of its surface with them.
+
+    `points`, (n, 3), are the vertices as they are seen, in the coordinates of the arrays. If the pose `is_bent`, they are seen elsewhere
+    than the mesh has them.
+    """
+
+    def __init__(self, arrays: Arrays) -> None:
+        self._arrays = arrays
+        # Curves, (k, 3), with the triangle nearest to each point, (k,), and its barycentric coordinates, (k, 3).
+        self._found: dict[int, tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]] = {}
+        self.points: NDArray[np.float64] = arrays.points
+        self.is_bent = False
+
+    def follow(self, obj: bpy.types.Object) -> bool:
+        seen = _cage_points(obj, len(self._arrays.points))
+        if seen is None and not self.is_bent:
+            return False
+        points = self._arrays.points if seen is None else seen @ np.linalg.inv(self._arrays.to_object).T
+        if np.array_equal(points, self.points):
+            return False
+        self.points, self.is_bent = points, seen is not None
+        return True
+
+    def places(self, curve: NDArray[np.float64]) -> NDArray[np.float64]:
+        rest, corners = self._arrays.points, self._arrays.triangles
+        if not self.is_bent or not len(curve) or not len(corners):
+            return curve
+        # The curve itself is held: its number alone could come again.
+        if id(curve) not in self._found:
+            if len(self._found) >= _MOST_CURVES:
+                self._found.clear()
+            rows, _, _ = self._tree.find(curve)
+            weights, off = barycentric(rest[corners[rows]], curve)
+            weights[~np.isfinite(off)] = 1.0 / 3.0
+            self._found[id(curve)] = curve, rows, weights
+        _, rows, weights = self._found[id(curve)]
+        return np.einsum("kc,kcx->kx", weights, self.points[corners[rows]])
+
+    def at_rest(self, place: NDArray[np.float64], triangle: int) -> NDArray[np.float64]:
+        """Return where a point, (3,), that is seen in a triangle is on the mesh without modifiers."""
+        if not self.is_bent:
+            return place
+        corners = self._arrays.triangles[triangle]
+        (weights,), (off,) = barycentric(self.points[corners][None], place)
+        return weights @ self._arrays.points[corners] if np.isfinite(off) else self._arrays.points[corners[0]]
+
+    @cached_property
+    def _tree(self) -> NearestPoints:
+        return native.load().NearestPoints(self._arrays.points, self._arrays.triangles)
+
+
+def _depsgraph_of(obj: bpy.types.Object) -> bpy.types.Depsgraph:
+    """Return the evaluated data of a scene with the object. The context may be that of a window with another scene."""
+    context = bpy.context
+    if context.view_layer.objects.get(obj.name) != obj:
+        for window in context.window_manager.windows:
+            if window.view_layer.objects.get(obj.name) == obj:
+                with context.temp_override(window=window):
+                    return bpy.context.evaluated_depsgraph_get()
+    return context.evaluated_depsgraph_get()
+
+
+def _cage_points(obj: bpy.types.Object, count: int) -> NDArray[np.float64] | None:
+    """Return the vertices of an edit cage as modifiers bend it, (count, 3), in object coordinates. None: as the mesh has them.
+
+    Blender shows the cage after the last modifier with *On Cage*, and tells only what is left after all modifiers. Both are the same if
+    that modifier is the last one and none has changed the number of vertices.
+    """
+    active = [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
+    if not active or not active[-1].show_on_cage:
+        return None
+    evaluated = obj.evaluated_get(_depsgraph_of(obj))
+    data = evaluated.to_mesh()
+    try:
+        if len(data.vertices) != count:
+            return None
+        points = np.empty(3 * count, dtype=np.float32)
+        data.vertices.foreach_get("co", points)
+        return points.reshape(-1, 3).astype(np.float64)
+    finally:
+        evaluated.to_mesh_clear()

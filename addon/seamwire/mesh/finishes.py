@@ -142,7 +142,7 @@ def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
         for _, vertex in plan.left_out:
             raise CutError(f"A wire does not run over the mesh near vertex {vertex}")
         raise CutError("Nothing to cut: every wire stays inside one face")
-    # An error in splitting edges and faces so comes before anything is changed. Joining small islands and storing wires are not tried.
+    # A copy is cut first, so that an error in splitting comes before anything is changed. Joining islands and storing wires are not tried.
     bm = mesh.cage.number_bmesh().copy()
     try:
         _cut_faces(bm, plan, [])
@@ -302,21 +302,11 @@ def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
     keys = obj.data.shape_keys
     if keys is None or not keys.use_relative:
         return set()
-    blocks = list(keys.key_blocks)
-    edited = blocks[obj.active_shape_key_index]
-
-    def leads_there(block: bpy.types.ShapeKey) -> bool:
-        passed = []
-        while block not in passed:
-            passed.append(block)
-            block = block.relative_key
-            if block == edited:
-                return True
-            if IS_OLD:
-                break
-        return False
-
-    return {number for number, block in enumerate(blocks) if block != edited and leads_there(block)}
+    blocks, edited = list(keys.key_blocks), obj.active_shape_key_index
+    leaders, follow = [blocks.index(block.relative_key) for block in blocks], {edited}
+    for _ in range(1 if IS_OLD else len(blocks)):
+        follow |= {number for number, leader in enumerate(leaders) if leader in follow}
+    return follow - {edited}
 
 
 def _read(corner: bmesh.types.BMLoop, layer: bmesh.types.BMLayerItem) -> Value:

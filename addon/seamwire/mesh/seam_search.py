@@ -330,7 +330,7 @@ class Suggestion:
             finishes.move(self.mesh, self.slits, self.finish)
 
 
-class SeamSearch:
+class SeamSearch(list[Suggestion]):
     """Suggested wires for all objects that have visible faces. If `selected`, only islands with selected faces are cut."""
 
     def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
@@ -338,7 +338,6 @@ class SeamSearch:
         self.problem = ALL_HIDDEN  # why no object can be cut
         self._options = options
         self._unwrapped: Unwrapped | None = None
-        self._found: list[Suggestion] = []
         hidden: list[str] = []
         for obj in objects:
             faces = None
@@ -355,15 +354,9 @@ class SeamSearch:
                 continue
             for notice in suggestion.mesh.notices.take():
                 self.notices.add(*notice)
-            self._found.append(suggestion)
-        for problem in hidden if self._found else ():
+            self.append(suggestion)
+        for problem in hidden if self else ():
             self.notices.add("WARNING", problem)
-
-    def __iter__(self) -> Iterator[Suggestion]:
-        return iter(self._found)
-
-    def __len__(self) -> int:
-        return len(self._found)
 
     @property
     def are_alive(self) -> bool:

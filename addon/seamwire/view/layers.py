@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..core.base.mesh_arrays import Arrays
     from ..core.islands.islands import IslandMaker
     from ..core.solver.solver import End
-    from ..mesh.pose import Pose
+    from ..mesh.edit_mesh import Pose
     from ..terms.options import Options
     from .gpu_draw import Eye
     from .theme import Color

@@ -19,9 +19,8 @@ from ..core.picking.picker import REACH, Picker
 from ..core.seams.seam_wires import GapFinder
 from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
-from ..mesh.edit_mesh import visible_stretch
+from ..mesh.edit_mesh import Pose, visible_stretch
 from ..mesh.object_session import ObjectSession
-from ..mesh.pose import Pose
 from .failures import failures
 from .layers import CrestView, StretchHeat, makers
 from .overlay import Overlay

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
     from ..core.sketch.picture import Picture, ShownWire
-    from ..mesh.pose import Pose
+    from ..mesh.edit_mesh import Pose
     from .layers import Layer
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)

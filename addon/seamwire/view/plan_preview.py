@@ -20,7 +20,7 @@ from ..core.base.newest import Newest
 from ..core.islands.islands import IslandMaker
 from ..core.picking.picker import Picker
 from ..mesh import settings as chosen
-from ..mesh.pose import Pose
+from ..mesh.edit_mesh import Pose
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import OVER, ColoredFaces, Eye, Within, blended, draw_over, sees_through

@@ -90,13 +90,7 @@ class IslandMaker(Newest[_Request, Islands]):
         former = () if before is None or not before.count else (before.labels, before.hues)
         hues = native.load().island_hues(self._triangles, labels, cuts, *former)
         of_triangle = hues[labels]
-        order = np.argsort(of_triangle, kind="stable")
-        bounds = np.searchsorted(of_triangle[order], np.arange(HUES + 1))
-        pieces = tuple(
-            (hue, np.ascontiguousarray(self._triangles[order[bounds[hue] : bounds[hue + 1]]]))
-            for hue in range(HUES)
-            if bounds[hue] < bounds[hue + 1]
-        )
+        pieces = tuple((hue, self._triangles[of_triangle == hue]) for hue in np.unique(of_triangle).tolist())
         missing = np.zeros(count, dtype=np.int32) if self._count is None else self._count(cuts, labels)
         gaps = []
         if self._gaps is not None:

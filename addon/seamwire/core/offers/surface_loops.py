@@ -189,7 +189,7 @@ class SurfaceLoops:
         self._cuts = list(cuts)
 
     def _id_of(self, cut: TakenCut, live: LiveWire) -> tuple[int, int] | None:
-        """Return the library's number of a cut that is bent. None while it is computed: on a mesh that was cut, numbers are others."""
+        """Return the library's number of a cut that is bent. None while it is computed, because a mesh that was cut has other numbers."""
         if cut.id is not None:
             return cut.id
         found = live.closed_wires(for_live(cut.through, "SURFACE"))
