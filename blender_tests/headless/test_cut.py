@@ -29,9 +29,9 @@ from scene import (
     seams,
     snapshot,
 )
+from seamwire.core.base import native
 from seamwire.core.network.drawn import Drawn
 from seamwire.core.sketch.change import Change
-from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh import finishes
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
@@ -247,7 +247,7 @@ def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(
 
     def plan_second(mesh: ObjectSession, wires: object) -> object:
         if mesh.obj.name == "First":
-            raise mesh_cut.CutError("Nothing to cut: every wire stays inside one face")
+            raise finishes.CutError("Nothing to cut: every wire stays inside one face")
         return plan(mesh, wires)
 
     monkeypatch.setattr(finishes, "plan_cut", plan_second)
@@ -286,7 +286,7 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(monkeypatch: pytes
         edge_split = staticmethod(bmesh.utils.edge_split)
         face_split_edgenet = staticmethod(refuse_one)
 
-    monkeypatch.setattr(mesh_cut.bmesh, "utils", Utils)
+    monkeypatch.setattr(finishes.bmesh, "utils", Utils)
     obj = add_grid(9)
     edit()
     assert cut("0 44").problems == ("1 face could not be cut: the seams have gaps there",)
@@ -302,7 +302,7 @@ def test_an_edge_that_is_missing_where_a_cut_runs_along_it_is_found_before_anyth
     add_layers(obj)
     edit()
     before = snapshot(obj)
-    plan = mesh_cut.plan
+    plan = native.load().plan_cuts
 
     def astray(*what: object) -> object:
         found = plan(*what)
@@ -316,7 +316,7 @@ def test_an_edge_that_is_missing_where_a_cut_runs_along_it_is_found_before_anyth
             across=found.across,
         )
 
-    monkeypatch.setattr(mesh_cut, "plan", astray)
+    monkeypatch.setattr(native.load(), "plan_cuts", astray)
     with pytest.raises(ValueError, match="A wire does not run over the mesh near vertex 3"):
         cut("0 44")
     assert snapshot(obj) == before
@@ -337,7 +337,7 @@ def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
         edge_split = staticmethod(bmesh.utils.edge_split)
         face_split_edgenet = staticmethod(split_some)
 
-    monkeypatch.setattr(mesh_cut.bmesh, "utils", Utils)
+    monkeypatch.setattr(finishes.bmesh, "utils", Utils)
 
 
 @pytest.mark.every_blender

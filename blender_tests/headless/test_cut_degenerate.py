@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_object, add_suzanne, edit, seams
-from seamwire.mesh import cut as mesh_cut
+from seamwire.mesh import finishes
 from test_cut import cut, is_sound, joined
 
 
@@ -90,7 +90,7 @@ def test_a_face_cut_on_a_drawing_has_its_own_normal(split: bool, monkeypatch: py
     obj = add_object(*SPIKE)
     edit()
     if not split:
-        monkeypatch.setattr(mesh_cut, "_split", lambda _face, _edges: False)
+        monkeypatch.setattr(finishes, "_split", lambda _face, _edges: False)
     assert cut("0 3")
     bm = bmesh.from_edit_mesh(obj.data)
     assert len(bm.faces) == (2 if split else 1)

@@ -216,32 +216,9 @@ def turns(obj: bpy.types.Object) -> int:
     return found
 
 
-def add_box() -> None:
-    bpy.ops.mesh.primitive_cube_add()
-    bpy.context.object.scale = (1.0, 0.6, 0.3)
-    bpy.ops.object.transform_apply(scale=True)
-
-
-def add_bevelled_cube() -> None:
-    bpy.ops.mesh.primitive_cube_add()
-    bpy.context.object.modifiers.new("Bevel", "BEVEL").width = 0.1
-    bpy.ops.object.modifier_apply(modifier="Bevel")
-
-
-def add_boxes() -> None:
-    bm = bmesh.new()
-    for i in range(100):
-        bmesh.ops.create_cube(bm, matrix=Matrix.Translation((2.0 * (i % 10), 2.0 * (i // 10), 0.0)))
-    bpy.context.view_layer.objects.active = add_bmesh(bm, "Boxes")
-
-
 FIRST_SHAPES = {
     "cube": (bpy.ops.mesh.primitive_cube_add, 1, 7),
-    "box": (add_box, 1, 7),
-    "bevelled cube": (add_bevelled_cube, 1, 13),
-    "boxes": (add_boxes, 100, 700),
     "cylinder": (bpy.ops.mesh.primitive_cylinder_add, 3, 65),
-    "prism": (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=6), 3, 13),
     "cone": (bpy.ops.mesh.primitive_cone_add, 2, 33),
     "torus": (bpy.ops.mesh.primitive_torus_add, 1, 60),
     "sphere": (bpy.ops.mesh.primitive_uv_sphere_add, 1, None),

@@ -132,20 +132,6 @@ def test_a_new_window_draws(halves: Desk, monkeypatch: pytest.MonkeyPatch) -> No
         halves.ui.wait_until(lambda: drawn[other["window"].as_pointer()] > 0)
 
 
-def test_all_edited_objects_are_drawn_and_the_active_one_is_in_front(ui: driver.Ui) -> None:
-    for name, x in (("Right", 0.8), ("Left", -0.8)):
-        add_grid(5, size=1.0, name=name).location.x = x
-    ui.move((3.0, ui.region.height - 3.0))
-    with ui.override():
-        edit()
-    choose(ui)
-    try:
-        ui.wait_until(lambda: len(edited.views()) == 2)
-        assert edited.front.name == "Left"
-    finally:
-        leave(ui)
-
-
 def test_the_drawing_is_back_when_suggest_has_cut_the_mesh(ui: driver.Ui) -> None:
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     ui.move((3.0, ui.region.height - 3.0))

@@ -11,7 +11,7 @@ from scene import chain, changing, seams, snapshot
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.sketch.dragging import Dragging
 from seamwire.core.sketch.picture import Role
-from seamwire.mesh import cut
+from seamwire.mesh import finishes
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
@@ -162,7 +162,11 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
         return found
 
     monkeypatch.setattr(Notices, "take", note)
-    failing = {"before": (cut, "plan"), "within": (cut, "Cut"), "after": (ObjectSession, "take_over")}
+    failing = {
+        "before": (finishes, "plan_cut"),
+        "within": (finishes, "_cut_wires"),
+        "after": (ObjectSession, "take_over"),
+    }
     monkeypatch.setattr(*failing[where], fail)
     before = snapshot(cutting.obj, with_seams=False)
     session, ui = cutting.start(), cutting.ui

@@ -371,7 +371,3 @@ def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
         bm.faces[face].select = True
     bm.select_flush_mode()
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
-
-
-def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
-    return np.array([face.index for face in edit_bmesh(obj.data).faces if face.select], dtype=np.int64)

@@ -341,7 +341,10 @@ class SeamSearch:
         self._found: list[Suggestion] = []
         hidden: list[str] = []
         for obj in objects:
-            faces = edit_mesh.selected_faces(obj) if selected else None
+            faces = None
+            if selected:
+                bm = edit_mesh.edit_bmesh(obj.data)
+                faces = np.array([face.index for face in bm.faces if face.select], dtype=np.int64)
             try:
                 suggestion = Suggestion(obj, options, faces)
                 if not len(suggestion.mesh.arrays.triangles):

@@ -181,14 +181,13 @@ def cut_wires(
     sessions that are given end.
     """
     from ..mesh import finishes
-    from ..mesh.cut import CutError
 
     plans, problems = {}, []
     for mesh, own in wires.items():
         try:
             if own:
                 plans[mesh] = finishes.plan_cut(mesh, own)
-        except CutError as error:
+        except finishes.CutError as error:
             problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
     if not plans:
         operator.report({"ERROR"}, problems[0])

@@ -29,7 +29,6 @@ class Drawn:
     mirror: tuple[int, ...] = ()
 
     def find(self, wire: Wire | None) -> Wire | None:
-        """Return the wire with another's number, as it runs here."""
         return None if wire is None else next((own for own in self.wires if own.id == wire.id), None)
 
     def taken_through(self, edge: Pick) -> Wire | None:

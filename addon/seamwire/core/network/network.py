@@ -59,7 +59,6 @@ class Snap:
 
     @classmethod
     def of(cls, what: Snap | Pick) -> Snap:
-        """Return a snap as it is, and a pick as a snap on the plain mesh."""
         return what if isinstance(what, Snap) else cls(what)
 
     @property
@@ -258,9 +257,6 @@ class Network:
     def seeds(self) -> list[Pick]:
         return list({pick: None for own in self.requests if not own.closed for pick in own.places})
 
-    def before(self, own: Request) -> Request | None:
-        return None if own.goes_on is None else self.find(own.goes_on[0])
-
     def after(self, own: Request) -> Request | None:
         return next((each for each in self.requests if each.goes_on == (own.id, "end")), None)
 
@@ -343,7 +339,6 @@ def goes_on(wire: Wire, start: Pick, heading: Pick | None) -> bool:
 
 
 def surface_vertex(pick: Pick) -> Pick:
-    """Return where a wire across the surface begins that is to begin at a pick."""
     return pick if isinstance(pick, FacePoint) else vertices_of(pick)[-1]
 
 
@@ -363,7 +358,6 @@ class History:
         return bool(self._redo)
 
     def can_undo(self, now: Network) -> bool:
-        """Whether a step led to something else than there is now."""
         return any(network != now for network in self._undo)
 
     def step(self, before: Network) -> None:
@@ -375,7 +369,6 @@ class History:
         return self._undo.pop()
 
     def back(self, now: Network) -> Network | None:
-        """Return what was there before the last step that changed something, or None if there is no such step."""
         while self._undo:
             network = self._undo.pop()
             if network != now:
@@ -384,13 +377,11 @@ class History:
         return None
 
     def forth(self, now: Network) -> Network | None:
-        """Return what the step did that was taken back last, or None if there is no such step."""
         if not self._redo:
             return None
         self._undo.append(now)
         return self._redo.pop()
 
     def forget(self) -> None:
-        """Forget all steps: what was done is Blender's to undo now."""
         self._undo.clear()
         self._redo.clear()

@@ -45,7 +45,6 @@ class Stops:
         return np.fromiter(plane, dtype=np.int32, count=len(plane))
 
     def edges(self, network: Drawn) -> NDArray[np.int32]:
-        """Return the edges, (k, 2), of seams, of kept wires and of their images."""
         return self._kept(network)[0]
 
     def kept(self, network: Drawn) -> NDArray[np.int32]:

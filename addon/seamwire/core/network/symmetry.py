@@ -72,7 +72,6 @@ class Symmetry:
 
     @cached_property
     def symmetric_axes(self) -> tuple[int, ...]:
-        """The axes over which most vertices have a partner."""
         found = []
         for axis in range(3):
             partners = self.partners((axis,))
@@ -201,8 +200,6 @@ def _combinations(axes: tuple[int, ...]) -> list[tuple[int, ...]]:
 
 
 class MirrorImages:
-    """Finds the images of wires by the symmetry of their mesh, each when it is first needed."""
-
     def __init__(self, symmetry: Symmetry) -> None:
         self._symmetry = symmetry
         self._warned = False
@@ -221,7 +218,6 @@ class MirrorImages:
         return replace(wire, images=tuple(edge for edge in edges if among is None or edge in among))
 
     def net_effect(self, network: Drawn) -> tuple[list[Edge], list[Edge]]:
-        """Return the edges that wires and images mark and those that they clear, sorted, smaller vertex first."""
         if self._effect is None or self._effect[0] is not network:
             claims = ((edge, wire.marks) for wire in map(self.completed, network.wires) for edge in wire.claims())
             self._effect = (network, *net_effect(claims))

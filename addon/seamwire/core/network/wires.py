@@ -107,7 +107,6 @@ class Wire:
     id: int = field(default_factory=new_id)
 
     def edges(self) -> list[Edge]:
-        """Return the edges it marks or clears, in order along the wire."""
         return list(self._edges)
 
     @cached_property
@@ -173,7 +172,6 @@ class Wire:
 
 
 def distinct(ways: Iterable[Wire | None]) -> tuple[Wire, ...]:
-    """Return the wires among these without those that run like an earlier one."""
     found: list[Wire] = []
     for way in ways:
         if way is not None and not any(way.like(earlier) for earlier in found):

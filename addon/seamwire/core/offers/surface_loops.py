@@ -61,7 +61,14 @@ class TakenCut:
         """
         ran = np.concatenate([wire.points for wire in self.wires])
         length = sum(length_of(wire.points) for wire in self.wires)
-        wires = tuple(wire for wire in network.wires if _runs_along(wire.points, ran, _ON * length))
+        near = _ON * length
+        wires = tuple(
+            wire
+            for wire in network.wires
+            # Most are told by where they begin.
+            if nearest_on_segments(wire.points[0], ran[:-1], ran[1:])[1].min() < 5.0 * near
+            and _mean_gap(wire.points, ran) < near
+        )
         around = sum(length_of(wire.points) for wire in wires)
         if abs(around - length) > _LONGER * length:
             return None
@@ -72,12 +79,6 @@ def is_same(one: NDArray[np.float64], two: NDArray[np.float64]) -> float | None:
     """Return how far two closed courses, (k, 3), are apart, as part of the first one's length; None: too far to be the same cut."""
     apart = max(_mean_gap(one, two), _mean_gap(two, one)) / length_of(one)
     return apart if apart < _SAME else None
-
-
-def _runs_along(course: NDArray[np.float64], other: NDArray[np.float64], near: float) -> bool:
-    """Whether a course is in the mean no farther from another; most are told by where they begin."""
-    begins = nearest_on_segments(course[0], other[:-1], other[1:])[1].min()
-    return bool(begins < 5.0 * near) and _mean_gap(course, other) < near
 
 
 def _mean_gap(course: NDArray[np.float64], other: NDArray[np.float64]) -> float:
@@ -163,7 +164,10 @@ class SurfaceLoops:
             pieces = self._pieces_of(each, begin)
             if len(pieces) < 2:
                 continue
-            whole = _whole(pieces, each.separates)
+            vertices = sum((piece.vertices[:-1] for piece in pieces), ())
+            points = np.concatenate([piece.points[:-1] for piece in pieces] + [pieces[0].points[:1]])
+            kind: LoopKind = "ACROSS" if each.separates else "HANDLE"
+            whole = pieces[0].anew(vertices=vertices, points=points, faces=None, end=begin, closed=True, kind=kind)
             # On a coarse mesh, cuts apart from each other may go to the same edges.
             edges = None if into_faces else set(whole.edges())
             if not any(whole.like(other) or set(other.edges()) == edges for other in shown):
@@ -227,10 +231,3 @@ class SurfaceLoops:
             vertices, points = tuple(map(int, piece.vertices)), np.array(piece.points, dtype=np.float64)
             wires.append(Wire("SURFACE", vertices, points, start, end, np.array(piece.faces)))
         return tuple(wires)
-
-
-def _whole(pieces: tuple[Wire, ...], separates: bool) -> Wire:
-    vertices = sum((piece.vertices[:-1] for piece in pieces), ())
-    points = np.concatenate([piece.points[:-1] for piece in pieces] + [pieces[0].points[:1]])
-    kind: LoopKind = "ACROSS" if separates else "HANDLE"
-    return pieces[0].anew(vertices=vertices, points=points, faces=None, end=pieces[0].start, closed=True, kind=kind)

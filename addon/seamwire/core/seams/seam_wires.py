@@ -85,32 +85,27 @@ def _reach(
     runs along that, it is one all the same, until a seed of it is moved. Yields while it has to wait.
     """
     best: tuple[int, int, Edge | None] = (begin, 0, None)
-    for heading in (None,) if before is None else (before, None):
-        live.seed(chain[begin] if heading is None else heading, forward=heading is not None)
-        end, follow = yield from _run(live, chain, begin, 0 if heading is None else 1)
-        if end > best[0]:
-            best = end, follow, heading
-        if end == len(chain) - 1:
-            break
-    return best
-
-
-def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generator[None, None, tuple[int, int]]:
-    reached = begin + 1, 0
     # A wire does not end where it begins: around a circle there are two.
     last = len(chain) - (1 if begin == 0 and chain[0] == chain[-1] else 0)
-    for end in range(begin + 1, last):
-        if end > reached[0] + _MISSES:
-            break
-        found = live.wires(chain[end])
-        while not found.final:
-            yield
+    for heading in (None,) if before is None else (before, None):
+        live.seed(chain[begin] if heading is None else heading, forward=heading is not None)
+        reached, follow = begin + 1, 0
+        for end in range(begin + 1, last):
+            if end > reached + _MISSES:
+                break
             found = live.wires(chain[end])
-        ways = [candidate.vertices[skipped:].tolist() for candidate in by_number(found)[0]]
-        wanted = chain[begin : end + 1]
-        if wanted in ways:
-            reached = end, ways.index(wanted)
-    return reached
+            while not found.final:
+                yield
+                found = live.wires(chain[end])
+            # Without the edge before it.
+            ways = [way.vertices[0 if heading is None else 1 :].tolist() for way in by_number(found)[0]]
+            if chain[begin : end + 1] in ways:
+                reached, follow = end, ways.index(chain[begin : end + 1])
+        if reached > best[0]:
+            best = reached, follow, heading
+        if reached == len(chain) - 1:
+            break
+    return best
 
 
 @dataclass(frozen=True)

@@ -135,7 +135,6 @@ class Board:
         return next((wire for wire in self.drawn.wires if wire.id == id), None)
 
     def wire_of(self, own: Request) -> Wire | None:
-        """Return the wire of a request that may not be in the network yet."""
         return own.wire if isinstance(own, Given) else self.wire(own.id)
 
     def is_final(self, own: Request) -> bool:
@@ -147,7 +146,6 @@ class Board:
         return How(options.marking, self.options.mirror, self.engines.strengths[along], finish)
 
     def draw(self) -> None:
-        """Derive the wires from the network and the courses."""
         found = self.courses.follow(self.network.requests)
         last = {own.id: course.wires[-1] for own, course in found if course.wires}
         drawn: list[Wire] = []
@@ -184,7 +182,6 @@ class Board:
 
     @property
     def seed(self) -> Pick | None:
-        """The beginning of the live wire; None between chains."""
         return None if self.begin is None else self.begin.pick
 
     @property
@@ -196,7 +193,6 @@ class Board:
         return undirected(seed.pick if self.options.along == "EDGES" else self.seed)
 
     def seeds(self) -> list[Pick]:
-        """Return every seed, each once, in the order they were placed."""
         ends = [
             pick
             for own in self.network.requests
@@ -261,7 +257,6 @@ class Board:
         self.revision += 1
 
     def go_to(self, network: Network) -> None:
-        """Go on to a network, without a step for undo."""
         before, self.network = self.network, network
         if before.strokes != network.strokes:
             self.engines.follow(network.strokes)

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
 from ..base.refused import Refused
@@ -14,7 +13,7 @@ from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from ..network.network import CourseKey
     from ..solver.solver import LiveWire
@@ -45,14 +44,29 @@ class Course:
 UNKNOWN = Course()
 
 
-class Search(Iterator["Course"]):
-    """Finds the course of one request, a little with each `next`. The last course is final.
+class Search(NamedTuple):
+    """Finds the course of one request: courses that come nearer to it, of which the last one is final.
 
-    Raises ValueError if there is no course. `lives` are the live wires that compute for it now.
+    The next course raises ValueError if there is none. `lives` returns the live wires that compute for it now.
     """
 
-    def lives(self) -> Sequence[LiveWire]:
-        return ()
+    courses: Iterator[Course]
+    lives: Callable[[], Sequence[LiveWire]]
+
+    @classmethod
+    def of(cls, live: LiveWire, courses: Iterator[Course]) -> Search:
+        """Search with one live wire. If it says many times that its work is done, and no course is final, that raises Refused."""
+
+        def patiently() -> Iterator[Course]:
+            waits, is_done = 0, live.progress() >= 1.0
+            for course in courses:
+                waits = waits + 1 if is_done and live.progress() >= 1.0 else 0
+                if waits > MOST_WAITS and not course.final:
+                    raise Refused("The computation ended without a result: this step was dropped")
+                yield course
+                is_done = live.progress() >= 1.0
+
+        return cls(patiently(), lambda: (live,))
 
 
 class Courses:
@@ -79,7 +93,6 @@ class Courses:
         return found or UNKNOWN
 
     def begin(self, request: Request, course: Course, search: Search | None = None) -> None:
-        """Begin with the course that is shown now, and search on unless that is final."""
         self._known[request.key] = course
         if search is not None and not course.final:
             self._searches[request.key] = search
@@ -95,7 +108,6 @@ class Courses:
         return found
 
     def lives(self) -> list[LiveWire]:
-        """Return the live wires that compute for the request that comes next."""
         return [live for own in self.unfinished[:1] for live in self._searches[own.key].lives()]
 
     def step(self) -> tuple[Request, bool]:
@@ -113,7 +125,7 @@ class Courses:
 
     def _searched(self, request: Request) -> Course:
         try:
-            course = next(self._searches[request.key])
+            course = next(self._searches[request.key].courses)
         except StopIteration:
             raise AssertionError("A search ended without a final course") from None
         except ValueError as error:
@@ -129,11 +141,3 @@ class Courses:
     def _end(self, request: Request, course: Course) -> None:
         self._searches.pop(request.key, None)
         self._known[request.key] = course
-
-
-def patiently(live: LiveWire, is_done: bool, waits: int) -> int:
-    """Return how often in a row the library has said that its work is done although an answer is missing. Raise Refused at too many."""
-    waits = 0 if is_done or live.progress() < 1.0 else waits + 1
-    if waits > MOST_WAITS:
-        raise Refused("The computation ended without a result: this step was dropped")
-    return waits

@@ -12,7 +12,7 @@ from ..network.picks import is_same, pick_name, undirected
 from ..solver.solver import for_live
 from .courses import Course
 from .interaction import Begun, Edit, Interaction
-from .ways import Begin, WaySearch, backwards, choices, directed, ways_of
+from .ways import Begin, backwards, choices, directed, search_way, ways_of
 from .wiring import only_vertices
 
 if TYPE_CHECKING:
@@ -102,7 +102,6 @@ class Dragging(Interaction):
 
     @property
     def is_solved(self) -> bool:
-        """Whether each wire that follows is the shortest one."""
         return self._is_solved and not self.reason
 
     def lives(self) -> Sequence[LiveWire]:
@@ -155,13 +154,13 @@ class Dragging(Interaction):
             ordered = choices(way, ways, leading)
             if not ordered:
                 missing.append(leg)
-                begun.append(Begun(way, Course((leg.wire,)), WaySearch(way, self._board.ground, leg.live, leg.begin)))
+                begun.append(Begun(way, Course((leg.wire,)), search_way(way, self._board.ground, leg.live, leg.begin)))
                 continue
             wire = way.how.of(replace(ordered[0], id=way.id))
             moved.append(wire)
             shown = wire if found.solved else leg.wire
             course = Course((shown,), final=found.final, choices=ordered if found.final else ())
-            begun.append(Begun(way, course, WaySearch(way, self._board.ground, leg.live, leg.begin)))
+            begun.append(Begun(way, course, search_way(way, self._board.ground, leg.live, leg.begin)))
             if meets is not None and meets[0] == way.id:
                 direction = directed(wire, leg.moving)
         self._courses = tuple(begun)
@@ -180,12 +179,10 @@ class Dragging(Interaction):
 
     @property
     def ends(self) -> frozenset[Pick]:
-        """The ends of these wires now, edges in both directions."""
         ends = {end for wire in (*self.moved, *(leg.wire for leg in self._legs)) for end in (wire.start, wire.end)}
         return frozenset(ends | {end[::-1] for end in ends if isinstance(end, tuple)})
 
     def seeds(self) -> list[Pick]:
-        """Return every seed with this one where it is now, each once."""
         before, now = undirected(self._seed), undirected(self.place)
         moved = (
             now if undirected(pick) == before else undirected(pick) for pick in (*self._before.seeds(), *self._live)
@@ -222,7 +219,6 @@ class Dragging(Interaction):
         return Edit(network.joined(self.target, board.points, board.is_final), begun, report=report)
 
     def _with_seed(self, network: Network, pick: Pick) -> Network:
-        """Return a network whose live wire begins, and whose chain began, at the dragged seed's new place."""
         seed = network.seed
         if seed is None:
             return network

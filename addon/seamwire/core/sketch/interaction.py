@@ -59,7 +59,6 @@ class Interaction:
 
     @property
     def is_final(self) -> bool:
-        """Whether nothing is computed for it any more."""
         return True
 
     def lives(self) -> Sequence[LiveWire]:

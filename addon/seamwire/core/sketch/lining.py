@@ -17,7 +17,7 @@ from .line_wires import EdgeLine, SurfaceLine
 from .wiring import only_vertices
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -133,7 +133,7 @@ class Lining(Interaction):
             last = wires[-1].id
         else:
             request = Sought(along=along, start=ends[0], end=ends[1], goes_on=link, what="line")
-            search = LineSearch(self, self._board.how(along), request)
+            search = _search_line(self, self._board.how(along), request)
             new, last = (request,), request.id
             shown = tuple(replace(wire, id=request.id) for wire in wires[:1]) + wires[1:]
             begun = (Begun(request, Course(shown), search),)
@@ -164,23 +164,19 @@ class Lining(Interaction):
         return isinstance(end, int) and bool(np.isin(end, self._board.stops.kept(self._board.drawn)))
 
 
-class LineSearch(Search):
-    """Finds the wires that follow a released line."""
+def _search_line(own: Lining, how: How, request: Sought) -> Search:
+    """Find the wires that follow a released line."""
 
-    def __init__(self, line: Lining, how: How, request: Sought) -> None:
-        self._line, self._how, self._request = line, how, request
+    def courses() -> Iterator[Course]:
+        while True:
+            is_done = own.line.poll()
+            wires = tuple(map(how.of, own.line.wires))
+            if is_done and not wires:
+                raise Refused(own.line.message or _TOO_SHORT)
+            if wires:
+                wires = (replace(wires[0], id=request.id, start=request.start), *wires[1:])
+            if is_done:
+                own.warn()
+            yield Course(wires, final=is_done)
 
-    def lives(self) -> Sequence[LiveWire]:
-        return self._line.line.lives()
-
-    def __next__(self) -> Course:
-        line = self._line.line
-        is_done = line.poll()
-        wires = tuple(map(self._how.of, line.wires))
-        if is_done and not wires:
-            raise Refused(line.message or _TOO_SHORT)
-        if wires:
-            wires = (replace(wires[0], id=self._request.id, start=self._request.start), *wires[1:])
-        if is_done:
-            self._line.warn()
-        return Course(wires, final=is_done)
+    return Search(courses(), own.lives)

@@ -14,12 +14,12 @@ from ..network.wires import Wire
 from ..offers.crests import CREST_KINDS
 from ..offers.edge_loops import EdgeLoops, PartSearch, taken
 from ..offers.surface_loops import SurfaceLoops
-from .courses import Course, Search, patiently
+from .courses import Course, Search
 from .interaction import Begun, Edit, Interaction
 from .lining import Lining
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from ..network.network import Network
     from ..network.picks import Edge, Pick
@@ -74,7 +74,6 @@ class Offering(Interaction):
 
     @property
     def wire(self) -> Wire | None:
-        """The offer that is shown."""
         return self.offers[self.choice] if self.offers else None
 
     @property
@@ -91,7 +90,6 @@ class Offering(Interaction):
         return [board.engines.cuts() if board.options.along == "SURFACE" else board.engines.get("EDGES")]
 
     def takes(self, target: Snap) -> bool:
-        """Whether a click there would take the offer that is shown."""
         return self.wire is not None and self.edge == undirected(target.pick)
 
     # Offers
@@ -172,7 +170,6 @@ class Offering(Interaction):
         return next(alike, min(self.choice, max(len(offers) - 1, 0)))
 
     def advance(self) -> None:
-        """Show the next offer. Raise Refused if there is none."""
         if not self.offers:
             raise Refused("No loop found yet")
         if len(self.offers) == 1:
@@ -184,7 +181,6 @@ class Offering(Interaction):
         return self._board.options.along == "EDGES"
 
     def use_crests(self, crests: Crests | None, first: bool) -> bool:
-        """Offer ridges and valleys, as the first or as the last offer. Return whether other offers are shown."""
         if crests is self._crests and first == self._crests_first:
             return False
         self._crests, self._crests_first = crests, first
@@ -224,7 +220,6 @@ class Offering(Interaction):
     # Clicks
 
     def check(self, target: Snap) -> None:
-        """Raise Refused if no loop can lead through a target."""
         if not self._may_lead_through(target.pick):
             what = "Loops need an edge" if self._is_along_edges else "Closed cuts need a vertex or a point of a face"
             raise Refused(f"{what}, not {pick_name(target.pick)}")
@@ -252,7 +247,7 @@ class Offering(Interaction):
         offers, final = self.find(edge)
         if not offers:
             if progress < 1.0 or not final:
-                return self._later(target, LoopSearch(board, self, target, choice))
+                return self._later(target, _search_loop(board, self, target, choice))
             raise Refused(self.reason or f"No edge continues at {pick_name(edge)}")
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (seen is None and offers[0].kind in CREST_KINDS):
@@ -262,7 +257,6 @@ class Offering(Interaction):
         return Edit(board.base.adding(*map(Given.of, wires)))
 
     def _later(self, target: Snap, search: Search) -> Edit:
-        """Take what is offered at a target as soon as it is known."""
         board = self._board
         along = board.options.along
         request = Sought(along=along, start=target.pick, end=target.pick, closed=True, what="loop")
@@ -274,7 +268,9 @@ class Offering(Interaction):
         if offer is not None and offer.kind in CREST_KINDS:
             return self._take_crest(target.pick)
         if not final:
-            return self._later(target, CutSearch(self._board, target.pick, self.cuts, None, seen=offer))
+            return self._later(
+                target, _search_cut(self._board, target.pick, self.cuts, None, self._board.how("SURFACE"), offer)
+            )
         if offer is None:
             raise Refused(self.reason or NO_CUT)
         return self._with_cut(self._board.base, target.pick, offer, self._board.how("SURFACE"), None)
@@ -306,7 +302,7 @@ class Offering(Interaction):
         if final:
             return self._with_cut(rest, target.pick, offers[0], how, before)
         request = Sought(along="SURFACE", start=target.pick, end=target.pick, closed=True, what="loop")
-        search = CutSearch(board, target.pick, self.cuts, before, how)
+        search = _search_cut(board, target.pick, self.cuts, before, how)
         return Edit(rest.adding(request), (Begun(request, Course(before.wires), search),))
 
     def next_offer(self, own: Wire, steps: int = 1) -> Edit:
@@ -317,7 +313,7 @@ class Offering(Interaction):
             offers, final = self.find(own.through, own)
             if not final:
                 request = Sought(along="EDGES", start=own.start, end=own.end, closed=own.closed, id=own.id, what="loop")
-                search = LoopSearch(self._board, self, Snap(own.through), steps, own)
+                search = _search_loop(self._board, self, Snap(own.through), steps, own)
                 return Edit(
                     network.replacing({own.id: (request,)}),
                     (Begun(request, Course((own,)), search),),
@@ -361,81 +357,57 @@ def taken_loops(loops: tuple[Wire, ...], choice: int, how: How) -> tuple[Wire, .
 
 
 def cut_wires(pieces: tuple[Wire, ...], how: How) -> tuple[Wire, ...]:
-    """Return the wires of a closed cut. Raise Refused if nothing of it leaves a trace."""
     wires = tuple(wire for wire in (how.of(piece.anew()) for piece in pieces) if wire.leaves_trace)
     if not wires:
         raise Refused("No edge is left for the seam of this cut")
     return wires
 
 
-class LoopSearch(Search):
-    """Finds the loop that a click on an edge took, or, of a wire that is kept, the offer some steps on."""
+def _search_loop(board: Board, offering: Offering, target: Snap, choice: int, kept: Wire | None = None) -> Search:
+    """Find the loop that a click on an edge took, or, of a wire that is kept, the offer some steps on."""
+    engines, edge, how = board.engines.fork("EDGES"), target.pick, board.how("EDGES")
+    live, loops = engines.get("EDGES"), EdgeLoops(engines, board.stops, board.points, offering.parts)
 
-    def __init__(self, board: Board, offering: Offering, target: Snap, choice: int, kept: Wire | None = None) -> None:
-        engines = board.engines.fork("EDGES")
-        self._board, self._offering = board, offering
-        self._target, self._choice, self._kept = target, choice, kept
-        self._live = engines.get("EDGES")
-        self._loops = EdgeLoops(engines, board.stops, board.points, offering.parts)
-        self._how = board.how("EDGES")
-        self._waits = 0
+    def courses() -> Iterator[Course]:
+        while True:
+            progress = live.progress()
+            offers, final = loops.find(edge, board.drawn, target, kept=kept)
+            if not offers and (progress < 1.0 or not final):
+                yield Course(() if kept is None else (kept,))
+                continue
+            if kept is not None:
+                if len(offers) < 2:
+                    raise Refused("No other loop through this edge")
+                yield Course((replace(kept, offers=offers[1:]).next_offer(choice),), final=True)
+            if not offers:
+                raise Refused(f"No edge continues at {pick_name(edge)}")
+            wires = taken_loops(offers, choice, how)
+            offering.edges.took(edge, wires[-1])
+            yield Course(wires, final=True)
 
-    def lives(self) -> Sequence[LiveWire]:
-        return (self._live,)
-
-    def __next__(self) -> Course:
-        edge, kept = self._target.pick, self._kept
-        progress = self._live.progress()
-        offers, final = self._loops.find(edge, self._board.drawn, self._target, kept=kept)
-        if not offers and (progress < 1.0 or not final):
-            self._waits = patiently(self._live, progress < 1.0, self._waits)
-            return Course(() if kept is None else (kept,))
-        if kept is not None:
-            if len(offers) < 2:
-                raise Refused("No other loop through this edge")
-            return Course((replace(kept, offers=offers[1:]).next_offer(self._choice),), final=True)
-        if not offers:
-            raise Refused(f"No edge continues at {pick_name(edge)}")
-        wires = taken_loops(offers, self._choice, self._how)
-        self._offering.edges.took(edge, wires[-1])
-        return Course(wires, final=True)
+    return Search.of(live, courses())
 
 
-class CutSearch(Search):
-    """Finds the closed cut that a click took, which is the one `seen` there if it stays, or the cut `before` bent to a point."""
+def _search_cut(
+    board: Board, pick: Pick, cuts: SurfaceLoops, before: TakenCut | None, how: How, seen: Wire | None = None
+) -> Search:
+    """Find the closed cut that a click took, which is the one `seen` there if it stays, or the cut `before` bent to a point."""
+    engines, into_faces, drawn = board.engines.fork("CUTS"), board.options.into_faces, board.drawn
+    live, own = engines.cuts(), SurfaceLoops(engines, board.triangles)
+    if before is not None:
+        own.recall((before,))
 
-    def __init__(
-        self,
-        board: Board,
-        pick: Pick,
-        cuts: SurfaceLoops,
-        before: TakenCut | None,
-        how: How | None = None,
-        seen: Wire | None = None,
-    ) -> None:
-        engines = board.engines.fork("CUTS")
-        self._board, self._pick, self._cuts, self._before = board, pick, cuts, before
-        self._live = engines.cuts()
-        self._own = SurfaceLoops(engines, board.triangles)
-        self._into_faces = board.options.into_faces
-        if before is not None:
-            self._own.recall((before,))
-        self._how, self._seen = how or board.how("SURFACE"), seen
-        self._drawn = board.drawn
-        self._waits = 0
+    def courses() -> Iterator[Course]:
+        while True:
+            offers, final = own.find(pick, drawn, before is not None, into_faces)
+            if not final:
+                yield Course(() if before is None else before.wires)
+                continue
+            if not offers:
+                raise Refused(NO_CUT)
+            offer = next((each for each in offers if seen is not None and each.like(seen)), offers[0])
+            wires = cut_wires(own.pieces(offer), how)
+            cuts.take(own, pick, offer, wires, before)
+            yield Course(wires, final=True)
 
-    def lives(self) -> Sequence[LiveWire]:
-        return (self._live,)
-
-    def __next__(self) -> Course:
-        progress = self._live.progress()
-        offers, final = self._own.find(self._pick, self._drawn, self._before is not None, self._into_faces)
-        if not final:
-            self._waits = patiently(self._live, progress < 1.0, self._waits)
-            return Course(() if self._before is None else self._before.wires)
-        if not offers:
-            raise Refused(NO_CUT)
-        offer = next((each for each in offers if self._seen is not None and each.like(self._seen)), offers[0])
-        wires = cut_wires(self._own.pieces(offer), self._how)
-        self._cuts.take(self._own, self._pick, offer, wires, self._before)
-        return Course(wires, final=True)
+    return Search.of(live, courses())

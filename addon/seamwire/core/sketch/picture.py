@@ -64,8 +64,6 @@ class SeedRole(Enum):
 
 
 class Intent(Enum):
-    """The effect of a click."""
-
     NOTHING = auto()
     SEED = auto()
     """Begin a chain on the mesh."""
@@ -101,8 +99,6 @@ class ShownWire:
 
 @dataclass(frozen=True)
 class ShownSeed:
-    """A seed in a picture."""
-
     pick: Pick
     role: SeedRole = SeedRole.PLACED
 
@@ -206,7 +202,6 @@ class Picture:
 
     @property
     def others(self) -> tuple[Wire, ...]:
-        """The other candidates, in the order in which they come forward."""
         return self.all(Role.OTHER)[::-1]
 
 

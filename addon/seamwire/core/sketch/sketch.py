@@ -26,7 +26,7 @@ from .lining import Lining
 from .offering import Offering
 from .paint import paint
 from .picture import Work
-from .ways import WaySearch
+from .ways import search_way, turned
 from .wiring import Wiring
 
 if TYPE_CHECKING:
@@ -73,7 +73,6 @@ class Sketch(Board):
         return self.images.net_effect(self.shown)[0]
 
     def edges_to_clear(self) -> list[Edge]:
-        """Return the edges that the wires clear of seams, each once, sorted, smaller vertex first."""
         return self.images.net_effect(self.shown)[1]
 
     @property
@@ -114,7 +113,6 @@ class Sketch(Board):
 
     @property
     def told(self) -> str:
-        """The reason or the new report that the artist sees now."""
         return self.reason or self.new_report
 
     # Work
@@ -132,7 +130,6 @@ class Sketch(Board):
 
     @property
     def computing(self) -> bool:
-        """Whether the library still works on the picture."""
         return self.progress < 1.0 or not self.interaction.is_final or self.waiting > 0
 
     def _lives(self) -> list[LiveWire]:
@@ -229,14 +226,13 @@ class Sketch(Board):
         return False
 
     def edit(self, edit: Edit) -> bool:
-        """Go on to a network, with a step for undo."""
         before = self.network
         for request, course, search in edit.begun:
             self.courses.begin(request, course, search)
         for own in self.courses.unknown(edit.network.requests):
             if isinstance(own, Way):  # a part of a wire that is not final
                 shown = () if own.was is None else (own.was,)
-                self.courses.begin(own, Course(shown), WaySearch(own, self.ground, self.engines.get(own.along).fork()))
+                self.courses.begin(own, Course(shown), search_way(own, self.ground, self.engines.get(own.along).fork()))
         try:
             self.go_to(edit.network)
             self.wiring.sow()
@@ -253,7 +249,6 @@ class Sketch(Board):
         return True
 
     def _settle(self, chosen: int | None = None) -> None:
-        """Let the interactions follow a new network, with the candidate that stays the active one."""
         self.wiring.chosen = chosen
         self.wiring.runs = False
         self.offering.clear()
@@ -306,7 +301,6 @@ class Sketch(Board):
         self.revision += vanish or before != (self.wiring.shown, self.reason, own)
 
     def next_candidate(self) -> bool:
-        """Show the next candidate, or the next offer if offers are shown. Return whether there is one."""
         own = self.offering if self.interaction is self.offering else self.wiring
         try:
             own.advance()
@@ -361,7 +355,6 @@ class Sketch(Board):
         return True
 
     def start(self, snap: Snap | Pick) -> bool:
-        """Begin a new chain, which ends the one before."""
         target = Snap.of(snap)
         self._calm()
         if not self._do(lambda: self.wiring.start(target)):
@@ -450,7 +443,6 @@ class Sketch(Board):
             self.go_to(self.network.without(*lost))
 
     def _calm(self) -> None:
-        """Drop what is held or previewed, and stop looking for loops."""
         self.offering.parts.stop()
         self._last_click = None
         self.stop_preview()
@@ -488,8 +480,9 @@ class Sketch(Board):
                 was=uncut,
                 id=own.id,
             )
-        search = WaySearch(way, self.ground, self.engines.get(way.along).fork())
-        begun = Begun(way, search.turned(course.choices) if course.choices else Course(course.wires), search)
+        live = self.engines.get(way.along).fork()
+        shown = turned(way, self.ground, live, course.choices) if course.choices else Course(course.wires)
+        begun = Begun(way, shown, search_way(way, self.ground, live))
         return Edit(network.replacing({own.id: (way,)}), (begun,))
 
     def drop(self, wire: Wire) -> bool:
@@ -680,7 +673,6 @@ class Sketch(Board):
     # Undo and redo
 
     def undo(self) -> bool:
-        """Take back what is held, else the last step."""
         if self.cancel():
             return True
         network = self.history.back(self.network)
@@ -697,7 +689,6 @@ class Sketch(Board):
         return self.is_held or self.history.can_undo(self.network)
 
     def _restore(self, network: Network) -> bool:
-        """Go back or forth to a network of the history."""
         back = [stroke.acts_on for stroke in network.strokes if stroke not in self.network.strokes]
         self.go_to(network)
         self.new_report = ""

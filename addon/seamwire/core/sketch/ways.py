@@ -13,10 +13,10 @@ from ..network.network import surface_vertex
 from ..network.picks import FacePoint, is_same, pick_name
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
-from .courses import Course, Search, patiently
+from .courses import Course, Search
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -67,7 +67,6 @@ def heading_of(wire: Wire, end: End, start: Pick) -> Edge | None:
 
 
 def across(candidate: Candidate, follow: int, begin: Pick, end: Pick, moving: End = "end") -> Wire | None:
-    """Return the library's wire across the surface from one pick to another, or None. It was found towards its `moving` end."""
     vertices = tuple(int(v) for v in candidate.vertices)
     # Between points of one face there may be no edge to snap to.
     least = 1 if isinstance(begin, FacePoint) or isinstance(end, FacePoint) else 2
@@ -103,7 +102,6 @@ def along_edges(
 def ways_of(
     found: Candidates, way: Way, begin: Begin, avoid: int | None, points: NDArray[np.float64]
 ) -> tuple[list[Wire | None], int]:
-    """Return the library's wires for a request, by `Wire.follow`, and the number of the leading one."""
     candidates, leading = by_number(found)
     if way.along == "SURFACE":
         return [across(each, row, way.start, way.end, way.moving) for row, each in enumerate(candidates)], leading
@@ -157,7 +155,6 @@ class Ground:
         return None if wire is None else heading_of(wire, link[1], start)
 
     def after(self, own: Request) -> Wire | None:
-        """Return the wire that goes on from the end of a request."""
         after = self.network().after(own)
         return None if after is None else self.wire(after.id)
 
@@ -179,7 +176,6 @@ class Ground:
         return Wire("EDGES", vertices, self.points[list(vertices)], start, vertices[-1], heading=heading)
 
     def check(self, way: Way, wire: Wire) -> None:
-        """Raise Refused if a wire is of no use as the course of a new way."""
         if not wire.leaves_trace:
             raise Refused("Too short to become a seam: click farther away")
         # The snapped edges of a wire that is cut tell nothing about where it runs.
@@ -189,84 +185,66 @@ class Ground:
                 raise Refused("The way back runs along the chain itself: place another seed first")
 
 
-class WaySearch(Search):
-    """Finds the course of a way. If `live` is given, it has begun to compute from `begun` already."""
+def search_way(way: Way, ground: Ground, live: LiveWire, begun: Begin | None = None) -> Search:
+    """Find the course of a way. If `begun` is given, the live wires have begun to compute from there already."""
+    return Search.of(live, _courses(way, ground, live, begun))
 
-    def __init__(self, way: Way, ground: Ground, live: LiveWire, begun: Begin | None = None) -> None:
-        self._way, self._ground, self._live, self._begun = way, ground, live, begun
-        self._waits = 0
 
-    def lives(self) -> Sequence[LiveWire]:
-        return (self._live,)
-
-    def __next__(self) -> Course:
-        way, live = self._way, self._live
-        begin, target, avoid = self._plan()
+def _courses(way: Way, ground: Ground, live: LiveWire, begun: Begin | None) -> Iterator[Course]:
+    while True:
+        begin, target, avoid = _plan(way, ground)
         if way.runs_on and way.end == way.start:
-            return Course((self._kept(self._ground.run_on(live, None, way.start, self._heading)),), final=True)
-        if begin != self._begun:
+            wire = ground.run_on(live, None, way.start, ground.heading(way.goes_on, way.start))
+            yield Course((_kept(way, wire),), final=True)
+        if begin != begun:
             begin.sow(live, way.along)
-            self._begun = begin
-        progress = live.progress()
+            begun = begin
         found = live.wires(for_live(target, way.along))
-        ways, leading = ways_of(found, way, begin, avoid, self._ground.points)
+        ways, leading = ways_of(found, way, begin, avoid, ground.points)
         if found.final:
-            return self._final(choices(way, ways, leading))
-        self._waits = patiently(live, progress < 1.0, self._waits)
-        if way.was is not None:
-            return Course((way.was,))
+            yield turned(way, ground, live, choices(way, ways, leading))
         shown = in_order(ways, leading if way.follow is None else way.follow)
-        return Course((self._kept(shown[0]),) if shown else ())
+        if way.was is not None:
+            yield Course((way.was,))
+        else:
+            yield Course((_kept(way, shown[0]),) if shown else ())
 
-    def _plan(self) -> tuple[Begin, Pick, int | None]:
-        """Return where the library's wires begin, where they lead, and a vertex where they may end before."""
-        way, ground = self._way, self._ground
-        if way.moving == "end":
-            begin = Begin.of(way.start, way.along, self._heading)
-            if way.along == "SURFACE" or way.closes is None:
-                return begin, way.end, None
-            return begin, *goal(way.end, ground.wire(way.closes))
-        after = ground.after(way) if way.along == "EDGES" else None
-        begin = backwards(way.end, way.was, after, way.along)
-        direction = ground.heading(way.meets, way.start)
-        return (begin, way.start, None) if direction is None else (begin, direction[1], direction[0])
 
-    def _final(self, ordered: tuple[Wire, ...]) -> Course:
-        way, was, ground = self._way, self._way.was, self._ground
-        if not ordered:
-            raise Refused(f"No wire from {pick_name(way.start)} reaches {pick_name(way.end)}")
-        wire = ordered[way.turns % len(ordered)]
-        if way.turns and len(ordered) == 1:
-            raise Refused("All wires run along the same edges here")
-        if way.turns and was is not None and self._leaves_other_way(wire, was):
-            # What goes on from the edge leaves it over this vertex: arriving there is enough.
-            wire = replace(wire, vertices=wire.vertices[:-1], points=wire.points[:-1])
-            if len(wire.vertices) < 2:
-                raise Refused("No other path to this seed")
-        if way.runs_on:
-            wire = ground.run_on(self._live, wire, way.start, None)
-        wire = self._kept(wire)
-        ground.check(way, wire)
-        return Course((wire,), final=True, choices=() if way.runs_on else ordered)
+def _plan(way: Way, ground: Ground) -> tuple[Begin, Pick, int | None]:
+    """Return where the library's wires begin, where they lead, and a vertex where they may end before."""
+    if way.moving == "end":
+        begin = Begin.of(way.start, way.along, ground.heading(way.goes_on, way.start))
+        if way.along == "SURFACE" or way.closes is None:
+            return begin, way.end, None
+        return begin, *goal(way.end, ground.wire(way.closes))
+    after = ground.after(way) if way.along == "EDGES" else None
+    begin = backwards(way.end, way.was, after, way.along)
+    direction = ground.heading(way.meets, way.start)
+    return (begin, way.start, None) if direction is None else (begin, direction[1], direction[0])
 
-    @property
-    def _heading(self) -> Edge | None:
-        return self._ground.heading(self._way.goes_on, self._way.start)
 
-    def _leaves_other_way(self, wire: Wire, was: Wire) -> bool:
-        return (
-            self._ground.after(self._way) is not None
-            and isinstance(wire.end, tuple)
-            and wire.along == "EDGES"
-            and wire.last_edge == was.last_edge[::-1]
-        )
+def turned(way: Way, ground: Ground, live: LiveWire, ordered: tuple[Wire, ...]) -> Course:
+    """Return the course with the one of some known ways that a request takes. Raise Refused if it is of no use."""
+    if not ordered:
+        raise Refused(f"No wire from {pick_name(way.start)} reaches {pick_name(way.end)}")
+    wire, was = ordered[way.turns % len(ordered)], way.was
+    if way.turns and len(ordered) == 1:
+        raise Refused("All wires run along the same edges here")
+    leaves = isinstance(wire.end, tuple) and wire.along == "EDGES" and ground.after(way) is not None
+    if way.turns and was is not None and leaves and wire.last_edge == was.last_edge[::-1]:
+        # What goes on from the edge leaves it over this vertex: arriving there is enough.
+        wire = replace(wire, vertices=wire.vertices[:-1], points=wire.points[:-1])
+        if len(wire.vertices) < 2:
+            raise Refused("No other path to this seed")
+    if way.runs_on:
+        wire = ground.run_on(live, wire, way.start, None)
+    wire = _kept(way, wire)
+    ground.check(way, wire)
+    return Course((wire,), final=True, choices=() if way.runs_on else ordered)
 
-    def turned(self, ordered: tuple[Wire, ...]) -> Course:
-        """Return the course with the way that its request takes of those that are known, without searching. Raise as a search does."""
-        return self._final(ordered)
 
-    def _kept(self, wire: Wire) -> Wire:
-        return self._way.how.of(replace(wire, id=self._way.id))
+def _kept(way: Way, wire: Wire) -> Wire:
+    return way.how.of(replace(wire, id=way.id))
 
 
 def backwards(stays: Pick, was: Wire | None, after: Wire | None, along: Along) -> Begin:

@@ -17,7 +17,7 @@ from ..solver.solver import by_number, for_live
 from .courses import Course
 from .interaction import Begun, Edit, Interaction
 from .picture import Intent
-from .ways import Begin, WaySearch, across, along_edges, goal, in_order
+from .ways import Begin, across, along_edges, goal, in_order, search_way
 
 if TYPE_CHECKING:
     from ..network.network import Network, Request, Snap
@@ -64,7 +64,6 @@ class Wiring(Interaction):
         self._choose()
 
     def forget(self) -> None:
-        """Forget which wires there were: those of another metric, or way of running, are others."""
         self.clear()
         self.chosen = None
 
@@ -86,7 +85,6 @@ class Wiring(Interaction):
     # Candidates
 
     def aim(self, target: Snap | None) -> None:
-        """Find the wires to a target."""
         self.target = target
         self.clear()
         try:
@@ -131,7 +129,6 @@ class Wiring(Interaction):
 
     @staticmethod
     def _closes(network: Network, target: Snap) -> Request | None:
-        """Return the request that a wire to a target closes the chain with. It begins there, and goes on from no other one."""
         if not network.closes(target):
             return None
         return next((own for own, end in network.at(target.pick) if end == "start" and own.goes_on is None), None)
@@ -169,7 +166,6 @@ class Wiring(Interaction):
 
     @property
     def shown(self) -> tuple[object, ...]:
-        """What changes when something else is to be seen."""
         return self.target, self.reason, self.leading, self.finals, self.wires, self.extended
 
     @property
@@ -192,7 +188,6 @@ class Wiring(Interaction):
 
     @property
     def others(self) -> tuple[Wire, ...]:
-        """The different other wires, in the order in which they follow the active one."""
         return distinct(self.wires[at] for at in self._order(self.active_index))[1:]
 
     @property
@@ -217,7 +212,6 @@ class Wiring(Interaction):
         return not self.is_final or any(self.wires)
 
     def advance(self) -> None:
-        """Bring the next candidate forward. Raise Refused if there is none."""
         others = self.others
         if not others:
             if self.finals and not self._is_reached:
@@ -232,13 +226,11 @@ class Wiring(Interaction):
 
     @property
     def is_straight(self) -> bool:
-        """Whether the wire that a click would keep is the one that is straight in the view."""
         return self.straight is not None and self.active is self.straight
 
     # Clicks
 
     def click(self, target: Snap) -> Edit:
-        """Begin a chain at a target, or keep the wire that leads there. Raise Refused if neither is possible."""
         if self._board.network.seed is None:
             return self.start(target)
         self._seen = self.active_final and target == self.target
@@ -247,7 +239,6 @@ class Wiring(Interaction):
         return self.keep()
 
     def start(self, target: Snap) -> Edit:
-        """Begin a new chain at a target, which ends the one before."""
         board = self._board
         along = board.options.along
         if along == "SURFACE" and isinstance(target.pick, tuple):
@@ -291,11 +282,10 @@ class Wiring(Interaction):
                 board.ground.check(way, kept)
             ordered = in_order(self.wires, self.active_index) if self.is_final else ()
             course = Course((kept,), final=is_done, choices=ordered)
-        search = None if course.final else WaySearch(way, board.ground, board.engines.hand_over(way.along), begin)
+        search = None if course.final else search_way(way, board.ground, board.engines.hand_over(way.along), begin)
         return Edit(joined.with_drawn(way, target.pick, ends), (Begun(way, course, search),))
 
     def run_to_end(self) -> Edit:
-        """Keep the live wire with its way to the end, which ends the chain."""
         board = self._board
         network, begin = board.base, board.begin
         seed = network.seed
@@ -321,11 +311,10 @@ class Wiring(Interaction):
         if course.final:
             given = Given.of(shown[0], way.goes_on)
             return Edit(replace(network.adding(given), seed=None))
-        search = WaySearch(way, board.ground, board.engines.hand_over("EDGES"), begin)
+        search = search_way(way, board.ground, board.engines.hand_over("EDGES"), begin)
         return Edit(replace(network.adding(way), seed=None), (Begun(way, course, search),))
 
     def ending(self, target: Snap) -> Intent | None:
-        """Return how a wire to a target ends the chain, or None if the chain goes on."""
         if self._board.network.closes(target):
             return Intent.CLOSE
         return Intent.JOIN if target.ends_chains else None
@@ -344,7 +333,6 @@ def _alike(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
 
 
 def only_vertices(edge: Pick) -> str:
-    """Say that wires across the surface do not end at edges."""
     return f"Wires across the surface need vertices or points of faces, not {pick_name(edge)}"
 
 

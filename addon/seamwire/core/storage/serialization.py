@@ -9,7 +9,6 @@ together, and one that nothing calls any more does no harm.
 from __future__ import annotations
 
 import base64
-import binascii
 import hashlib
 import json
 import zlib
@@ -45,17 +44,7 @@ _TOLERANCE = 1e-4
 Record = dict[str, Any]
 
 
-DAMAGED = (
-    ValueError,
-    TypeError,
-    KeyError,
-    IndexError,
-    AttributeError,
-    OverflowError,
-    RecursionError,
-    zlib.error,
-    binascii.Error,
-)
+DAMAGED = (ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError, zlib.error)
 """What reading raises where a text is not what it should be."""
 
 
@@ -246,7 +235,7 @@ def wire_record(wire: Wire, where: Places) -> Record:
 
 def checked_wire(record: Record) -> Record:
     """Return a record that was read, where nothing in it can be misunderstood; raises ValueError, TypeError, KeyError."""
-    vertices = record["vertices"]
+    vertices, kind = record["vertices"], record.get("kind")
     ends = np.array(record["ends"], dtype=np.float64)
     sound = (
         type(record["closed"]) is bool
@@ -261,19 +250,14 @@ def checked_wire(record: Record) -> Record:
         and record.get("finish", DEFAULT_FINISH) in FINISHES
         and type(record.get("planned", False)) is bool
         and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
+        and (kind is None or (isinstance(kind, str) and isinstance(pick_of(record["through"]), tuple)))
+        and (record["along"] == "EDGES" or len(unpacked(record["curve"])) > 1)
+        and (record["along"] == "EDGES" or len(unpacked(record["places"])) == len(vertices))
     )
     if not sound:
         raise ValueError
     for name in ("start", "end"):
         pick_of(record[name])
-    if record.get("kind") is not None and not (
-        isinstance(record["kind"], str) and isinstance(pick_of(record["through"]), tuple)
-    ):
-        raise ValueError
-    if record["along"] == "SURFACE" and (
-        len(unpacked(record["curve"])) < 2 or len(unpacked(record["places"])) != len(vertices)
-    ):
-        raise ValueError
     _stored_faces(record)
     return record
 

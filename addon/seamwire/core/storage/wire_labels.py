@@ -340,40 +340,30 @@ def _directed(trail: list[int], record: Record, where: Places) -> tuple[int, ...
     If its ends have not moved, they decide. Otherwise the order of the vertex numbers decides, because deleting, copying and joining keep
     it. Otherwise positions decide.
     """
-    places = where.in_object
+    places, closed = where.in_object, record["closed"]
     first, second = np.array(record["ends"], dtype=np.float64)
-    by_place = _as_placed(trail, bool(record["closed"]), first, second, places)
-    ends = places[[by_place[0], by_place[1] if record["closed"] else by_place[-1]]]
+    if closed:
+        # The first two vertices of a loop are stored.
+        begin = int(np.argmin(np.linalg.norm(places[trail] - first, axis=1)))
+        by_place = trail[begin:] + trail[:begin]
+        forth, back = np.linalg.norm(places[[by_place[1], by_place[-1]]] - second, axis=1)
+        by_place = by_place if forth <= back else [by_place[0], *by_place[:0:-1]]
+    else:
+        # A part that moved as a whole is rotated back, and its center does not count.
+        ends = places[[trail[0], trail[-1]]]
+        ends = ends - (ends.mean(axis=0) - 0.5 * (first + second))
+        forth, back = (np.linalg.norm(way - (first, second), axis=1).sum() for way in (ends, ends[::-1]))
+        by_place = trail if forth <= back else trail[::-1]
+    ends = places[[by_place[0], by_place[1] if closed else by_place[-1]]]
     if np.abs(ends - (first, second)).max() <= where.tolerance:
         return tuple(by_place)
-    ranks = _ranks(record["vertices"])
+    ranks = np.unique(record["vertices"], return_inverse=True)[1]
     for way in (trail, trail[::-1]) if len(ranks) == len(trail) else ():
-        begin = way.index(min(way)) - int(np.argmin(ranks)) if record["closed"] else 0
+        begin = way.index(min(way)) - int(np.argmin(ranks)) if closed else 0
         around = way[begin:] + way[:begin]
-        if np.array_equal(_ranks(around), ranks):
+        if np.array_equal(np.unique(around, return_inverse=True)[1], ranks):
             return tuple(around)
     return tuple(by_place)
-
-
-def _ranks(vertices: Iterable[int]) -> NDArray[np.int64]:
-    return np.unique(np.array(list(vertices)), return_inverse=True)[1]
-
-
-def _as_placed(
-    trail: list[int], closed: bool, first: NDArray[np.float64], second: NDArray[np.float64], places: NDArray[np.float64]
-) -> list[int]:
-    """Return a trail in the direction that the places of its ends, or of the first two vertices of a loop, speak for."""
-    if closed:
-        begin = int(np.argmin(np.linalg.norm(places[trail] - first, axis=1)))
-        trail = trail[begin:] + trail[:begin]
-        back = np.linalg.norm(places[[trail[1], trail[-1]]] - second, axis=1)
-        return trail if back[0] <= back[1] else [trail[0], *trail[:0:-1]]
-    # A part that moved as a whole is rotated back, and its center does not count.
-    ends = places[[trail[0], trail[-1]]]
-    shift = ends.mean(axis=0) - 0.5 * (first + second)
-    forth = np.linalg.norm(ends[0] - shift - first) + np.linalg.norm(ends[1] - shift - second)
-    back = np.linalg.norm(ends[1] - shift - first) + np.linalg.norm(ends[0] - shift - second)
-    return trail if forth <= back else trail[::-1]
 
 
 def _wires_of(pieces: list[_Piece], edges: set[Edge], places: Places) -> tuple[Wire, ...]:

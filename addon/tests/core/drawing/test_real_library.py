@@ -9,7 +9,6 @@ from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from real_sessions import session_on
-from seamwire.core.network.network import Snap
 from seamwire.core.sketch.dragging import Dragging
 from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
@@ -33,10 +32,6 @@ def at(x: int, y: int) -> int:
 def draw(along: Along = "EDGES") -> Sketch:
     """Return a session on the ridge."""
     return session_on(ridge(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along))
-
-
-def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
-    return tuple(at(x, y) for y in range(y0, y1 + 1))
 
 
 def click(session: Sketch, *picks: object) -> None:
@@ -78,18 +73,6 @@ def test_a_dragged_seed_leads_its_wires() -> None:
     assert session.edges_to_mark() == before
 
 
-def test_a_wire_dragged_back_is_what_it_was() -> None:
-    session = draw()
-    click(session, at(0, -8), at(0, 0), at(0, 8))
-    before = [wire.vertices for wire in session.wires]
-    session.drag(at(0, 0))
-    for place in (at(1, 1), at(2, 0), at(0, 0)):
-        session.drag_to(place)
-        session.wait()
-    session.drag_end()
-    assert [wire.vertices for wire in session.wires] == before
-
-
 def test_an_edge_seed_is_passed_in_one_direction_wherever_it_is_dragged() -> None:
     session = draw()
     click(session, at(-8, 0), (at(0, 0), at(1, 0)), at(8, 0))
@@ -104,18 +87,6 @@ def test_an_edge_seed_is_passed_in_one_direction_wherever_it_is_dragged() -> Non
             assert not set(one.edges()) & set(two.edges())
 
 
-def test_a_seed_put_into_a_wire_and_moved_bends_it() -> None:
-    session = draw()
-    click(session, at(0, -8), at(0, 8))
-    session.drag(Snap(at(0, 0), "WIRE", session.wires[0]))
-    session.drag_to(at(5, 0))
-    session.wait()
-    session.drag_end()
-    assert session.seeds() == [at(0, -8), at(5, 0), at(0, 8)]
-    session.undo()
-    assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
-
-
 def test_across_the_surface_curves_follow_the_dragged_seed() -> None:
     session = draw("SURFACE")
     click(session, at(-6, -6), at(0, 0), at(6, 6))
@@ -127,23 +98,6 @@ def test_across_the_surface_curves_follow_the_dragged_seed() -> None:
     assert np.allclose(first.points[-1], ridge()[at(2, -2)])
     assert np.allclose(second.points[0], ridge()[at(2, -2)])
     assert np.allclose(second.points[-1], ridge()[at(6, 6)])
-
-
-def test_another_strength_is_computed_in_the_background() -> None:
-    session = draw()
-    click(session, at(-4, -8))
-    session.hover(at(-4, 8))
-    session.wait()
-    weak = session.picture.active
-    stronger(session, -20)
-    assert session.picture.strength == 1.0
-    session.wait()
-    assert session.picture.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
-    assert weak.vertices
-    use(session, metric="euclidean")
-    session.wait()
-    session.click(at(-4, 8))
-    assert session.wires[0].vertices == straight(-4, -8, 8)
 
 
 def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> None:

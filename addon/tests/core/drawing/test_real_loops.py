@@ -169,19 +169,6 @@ def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(ready: bool) 
     assert set(map(tuple, wire_between(session, "EDGES")[:, :2])) == GATE
 
 
-def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
-    session = grid()
-    session.click(LEFT)
-    session.hover(RIGHT)
-    session.wait()
-    session.draw_stroke(gate(), faces_under(gate()))
-    session.wait()
-    assert set(map(tuple, session.picture.active.points[:, :2])) == GATE
-    session.undo()
-    session.wait()
-    assert session.picture.active.points[:, 1].max() == 15.0
-
-
 def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session = grid()
     session.click(LEFT)

@@ -330,7 +330,7 @@ def check_chain(mesh: PaperMesh, where: np.ndarray) -> None:
     assert (first.end, second.start) == ((where[8], where[9]),) * 2
     assert second.heading == (where[8], where[9])
     network = Network(linked(wires))
-    assert network.before(network.find(second.id)).id == first.id
+    assert network.find(second.id).goes_on == (first.id, "end")
     assert network.after(network.find(first.id)).id == second.id
     assert {(wire.id, end) for wire, end in network.at(first.end)} == {(first.id, "end"), (second.id, "start")}
 
