@@ -381,7 +381,7 @@ def act(chain: Chain, given: Meant) -> bool:
     if what not in _UNSEEN:
         chain.show()
     if what is Action.REMOVE:
-        return bool(passes)
+        return bool(passes)  # where there is nothing of ours, Blender has the key
     return what in _BLENDERS and not (is_held and what is Sign.OTHER_TOOL)
 
 
