@@ -31,8 +31,10 @@ from seamwire.tool.running import chains, listening
 from seamwire.tool.running import steps as searches
 from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
-from seamwire.words.reports import NOTHING_TO_UNDO, OTHER_KEY
 from stored import island_count
+
+NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
+OTHER_KEY = "Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here"
 
 
 @pytest.fixture

@@ -156,12 +156,14 @@ class Sketch(Board):
         return before != (self.revision, round(self.progress, 2))
 
     def _told_of(self, own: Request) -> None:
+        """Tell what is to be known of a final course. Each new one passes here once."""
         course = self.courses.of(own)
         if course.reason:
             self.tell(course.reason)
-        elif isinstance(own, Way):
+            return
+        if isinstance(own, Way):
             self.warn_of_triangles(own.along)
-            self.warn_of_images(course)
+        self.warn_of_images(course)
 
     def _poll_interaction(self) -> None:
         own = self.interaction
@@ -243,9 +245,10 @@ class Sketch(Board):
         self._settle(edit.chosen)
         if edit.report:
             self.tell(edit.report)
-        for begun in edit.begun:
-            if begun.course.final and isinstance(begun.request, Way):
-                self._told_of(begun.request)
+        known = {own.key for own in before.requests}
+        for own in self.network.requests:
+            if own.key not in known and self.is_final(own):
+                self._told_of(own)
         return True
 
     def _settle(self, chosen: int | None = None) -> None:
@@ -377,19 +380,13 @@ class Sketch(Board):
             if self.offering.is_crest_taken(target.pick):
                 return True  # the first press of a double click took the ridge
             self._take_back_click(target.pick)
-        return self._do(lambda: self.offering.take(target)) and self._warned()
+        return self._do(lambda: self.offering.take(target))
 
     def bend(self, snap: Snap | Pick) -> bool:
         target = Snap.of(snap)
         self.cancel()
         self._last_click = None
-        return self._do(lambda: self.offering.bend_to(target)) and self._warned()
-
-    def _warned(self) -> bool:
-        newest = self.network.requests[-1] if self.network.requests else None
-        if newest is not None and self.is_final(newest):
-            self.warn_of_images(self.courses.of(newest))
-        return True
+        return self._do(lambda: self.offering.bend_to(target))
 
     def close(self, seen_along: tuple[float, float, float] | None = None) -> bool:
         """Lead the live wire back to the chain's first seed, and keep it. `seen_along` is that of `Snap`."""

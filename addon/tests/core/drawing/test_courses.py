@@ -149,6 +149,25 @@ def test_a_seed_is_moved_while_its_wire_is_not_final() -> None:
     assert courses(session)[0][-1] == 15
 
 
+@pytest.mark.parametrize("is_late", [False, True])
+def test_each_new_wire_is_checked_once_when_it_is_final(is_late: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    checked: list[int] = []
+    monkeypatch.setattr(Sketch, "warn_of_images", lambda _, course: checked.extend(wire.id for wire in course.wires))
+    session = (late() if is_late else Table()).session
+    for act in (
+        lambda: session.click(0),
+        lambda: session.click(7),
+        lambda: session.loop((20, 21)),
+        lambda: session.retrace(session.wires[0]),
+        session.undo,
+        session.redo,
+    ):
+        act()
+        session.wait()
+    first, loop = session.wires
+    assert checked == [first.id, loop.id, first.id], "drawn, taken, and led another way"
+
+
 def test_a_wire_that_finds_no_way_is_told_of_and_the_others_stay() -> None:
     table = late(islands=(21,))
     session = table.session
