@@ -310,10 +310,6 @@ def _end_held(chain: Chain, given: Meant) -> None:
         _refuse(chain, given)
 
 
-def _nothing(*_: object) -> None:
-    """Do nothing."""
-
-
 ACTS: dict[Action | Sign, Act] = {
     Action.CLICK: click,
     Action.NEW_CHAIN: click,
@@ -346,8 +342,8 @@ ACTS: dict[Action | Sign, Act] = {
     Sign.HOVER: hover,
     Sign.ZOOM: lambda _, given: keymaps.zoom(bpy.context, given.place, given.event),
     Sign.OTHER_TOOL: lambda chain, _: chain.end_now(),
-    Sign.NOTHING: _nothing,
-    Sign.REPEAT: _nothing,
+    Sign.NOTHING: lambda *_: None,
+    Sign.REPEAT: lambda *_: None,
 }
 """The function for each meaning."""
 WHILE_HELD: dict[Action | Sign, Act] = {
@@ -358,8 +354,8 @@ WHILE_HELD: dict[Action | Sign, Act] = {
     Action.CANCEL: lambda chain, _: chain.let_go(),
     Action.END: _end_held,
     Sign.OTHER_TOOL: _refuse,
-    Sign.HOVER: _nothing,
-    Sign.AWAY: _nothing,
+    Sign.HOVER: ACTS[Sign.NOTHING],
+    Sign.AWAY: ACTS[Sign.NOTHING],
 }
 """The function for each meaning while a button is held. A key works only on what is held, or on what is shown."""
 _FIRST = {**ACTS, Action.REMOVE: remove, Action.NEXT: retrace}
@@ -385,7 +381,7 @@ def act(chain: Chain, given: Meant) -> bool:
     if what not in _UNSEEN:
         chain.show()
     if what is Action.REMOVE:
-        return bool(passes)
+        return bool(passes)  # where there is nothing of ours, Blender has the key
     return what in _BLENDERS and not (is_held and what is Sign.OTHER_TOOL)
 
 

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from ..core.sketch.sketch import Sketch
+    from ..core.storage.wire_labels import Plan
     from ..view.object_view import ObjectView
     from ..words.hints import Hint
     from .holds import Hold
@@ -312,7 +313,7 @@ class Chain:
             finish, reports = view.session.finish, view.session.reports
             if not self.attempt(finish, not at_once):
                 self.attempt(finish, False)
-            for told in dict.fromkeys(reports):
+            for told in reports:
                 self.notices.add("WARNING", told)
             reports.clear()
         view = self.drawn_on
@@ -323,13 +324,7 @@ class Chain:
             self.drawn_on = None
             return
         plan = view.mesh.plan(change)
-        try:
-            view.mesh.write(plan, adopt=False)
-        except ValueError:
-            raise
-        except Exception:
-            self._is_saved = True  # the mesh may have a part of the wires: dropping the chain writes the former ones
-            raise
+        self._write(view, plan)
         self.drawn_on, self._is_saved = None, False
         # Not what `write` has changed: saving within the chain may have marked edges already.
         before, after = self._seams, view.mesh.arrays.seams
@@ -345,6 +340,18 @@ class Chain:
             self.attempt(running.push, title)
         told = f"{title}: {done or summary(change, marked, cleared)}"
         self.notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
+
+    def _write(self, view: ObjectView, plan: Plan) -> None:
+        """Write what was drawn. Raises ValueError if the mesh has other vertices. Then it is unchanged."""
+        was_saved, self._is_saved = (
+            self._is_saved,
+            True,
+        )  # after another error, dropping the chain writes the former wires
+        try:
+            view.mesh.write(plan, adopt=False)
+        except ValueError:
+            self._is_saved = was_saved
+            raise
 
     def _try(self, what: str, view: ObjectView, work: Callable[[], _Result]) -> _Result | None:
         """Do some of the work on a mesh that has its wires already. Report an error instead of raising it, and return None."""
@@ -368,13 +375,12 @@ class Chain:
             self.attempt(self.let_go)
             self.attempt(self.keep)
         else:
-            was_saved, self._is_saved = self._is_saved, True  # an error may leave a part of the wires
-            try:
-                mesh = self.drawn_on.mesh
-                mesh.write(mesh.plan(Change(self._before, mesh.session.drawn)), adopt=False)
-                self.drawn_on.renew()
-            except ValueError:  # the mesh has other vertices, and nothing was written: the chain ends at its next event
-                self._is_saved = was_saved
+            view = self.drawn_on
+            with suppress(
+                ValueError
+            ):  # the mesh has other vertices, and nothing was written: the chain ends at its next event
+                self._write(view, view.mesh.plan(Change(self._before, view.session.drawn)))
+                view.renew()
 
     def _must_cut(self, view: ObjectView) -> bool:
         """Return whether a wire lies within a face and can be cut. Until it is cut, no edge can store it."""

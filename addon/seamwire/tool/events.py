@@ -8,7 +8,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..mesh import settings as chosen
-from ..view.viewport import place_of
+from ..view.viewport import contains, place_of
 from ..words.keys import MODIFIER_KEYS, WHEEL, Action, Key
 from . import keymaps
 
@@ -118,10 +118,5 @@ def _motion(chain: Chain, event: bpy.types.Event) -> Sign | None:
 
 def _is_over_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:
     """Return whether the mouse is over the settings of a 3D view's tool, which a chain follows."""
-    x, y = event.mouse_x, event.mouse_y
     regions = (region for area in window.screen.areas if area.type == "VIEW_3D" for region in area.regions)
-    return any(
-        region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
-        for region in regions
-        if region.type in {"TOOL_HEADER", "UI"}
-    )
+    return any(contains(own, event.mouse_x, event.mouse_y) for own in regions if own.type in {"TOOL_HEADER", "UI"})

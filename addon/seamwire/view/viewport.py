@@ -49,9 +49,9 @@ def place_of(window: bpy.types.Window, event: bpy.types.Event) -> Place | None:
     """Return the 3D view under the mouse, where no toolbar, sidebar or header lies over it."""
     x, y = event.mouse_x, event.mouse_y
     for area in window.screen.areas:
-        if area.type != "VIEW_3D" or not _contains(area, x, y):
+        if area.type != "VIEW_3D" or not contains(area, x, y):
             continue
-        under = [region for region in area.regions if region.width > 1 and _contains(region, x, y)]
+        under = [region for region in area.regions if region.width > 1 and contains(region, x, y)]
         if any(region.type != "WINDOW" for region in under):
             return None
         for region in under:
@@ -70,5 +70,5 @@ def place_in(area: bpy.types.Area, region: bpy.types.Region, location: tuple[int
     return Place(area, region, view, (x + 0.5, y + 0.5), region.x + x, region.y + y)
 
 
-def _contains(box: bpy.types.Area | bpy.types.Region, x: int, y: int) -> bool:
+def contains(box: bpy.types.Area | bpy.types.Region, x: int, y: int) -> bool:
     return box.x <= x < box.x + box.width and box.y <= y < box.y + box.height

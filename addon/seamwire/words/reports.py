@@ -26,17 +26,15 @@ class Notice(NamedTuple):
 
 class Notices:
     def __init__(self) -> None:
-        self._waiting: list[Notice] = []
+        self._waiting: dict[Notice, None] = {}
 
     def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
         """Add something to report, unless the same text waits already."""
-        notice = Notice(level, text)
-        if notice not in self._waiting:
-            self._waiting.append(notice)
+        self._waiting[Notice(level, text)] = None
 
     def take(self) -> list[Notice]:
         """Return what waits to be reported, errors last, and forget it."""
-        waiting, self._waiting = self._waiting, []
+        waiting, self._waiting = self._waiting, {}
         return sorted(waiting, key=lambda notice: LEVELS.index(notice.level))
 
     def tell(self, report: Callable[[set[str], str], None]) -> None:
