@@ -430,6 +430,33 @@ def test_a_mesh_of_edges_alone_has_no_places() -> None:
     assert seams(obj) == []
 
 
+def add_unlike_halves(count: int = 1) -> bpy.types.Object:
+    """Add a cube whose quads are cut into triangles the same way on both sides, not mirrored."""
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = bpy.context.active_object
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=count)
+    bpy.ops.mesh.quads_convert_to_tris(quad_method="FIXED")
+    return obj
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("chains", ["1 23", "3 15", "7 25", "0 13", "25 7", "6 9"])
+def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_unlike_halves()
+    assert cut(chains, mirror={"X"})
+    assert "Warning" not in capfd.readouterr().out
+    lengths = defaultdict(float)
+    for edge in bmesh.from_edit_mesh(obj.data).edges:
+        if edge.seam:
+            middle = 0.5 * (edge.verts[0].co.x + edge.verts[1].co.x)
+            lengths[math.copysign(1.0, middle) if abs(middle) > 1e-6 else 0.0] += edge.calc_length()
+    assert lengths[1.0] == pytest.approx(lengths[-1.0], rel=1e-5)
+    assert lengths[1.0] > 0.5
+    assert is_sound(obj)
+
+
 def test_an_image_that_leaves_the_mesh_is_left_out() -> None:
     obj = add_grid(9)
     for v in obj.data.vertices:
