@@ -343,10 +343,8 @@ class Chain:
 
     def _write(self, view: ObjectView, plan: Plan) -> None:
         """Write what was drawn. Raises ValueError if the mesh has other vertices. Then it is unchanged."""
-        was_saved, self._is_saved = (
-            self._is_saved,
-            True,
-        )  # after another error, dropping the chain writes the former wires
+        # After any other error, dropping the chain writes the former wires.
+        was_saved, self._is_saved = self._is_saved, True
         try:
             view.mesh.write(plan, adopt=False)
         except ValueError:
@@ -376,9 +374,8 @@ class Chain:
             self.attempt(self.keep)
         else:
             view = self.drawn_on
-            with suppress(
-                ValueError
-            ):  # the mesh has other vertices, and nothing was written: the chain ends at its next event
+            # If the mesh has other vertices, nothing is written, and the chain ends at its next event.
+            with suppress(ValueError):
                 self._write(view, view.mesh.plan(Change(self._before, view.session.drawn)))
                 view.renew()
 
