@@ -66,13 +66,13 @@ class Holds:
 
     def watch_events(self) -> None:
         """Time what Blender calls: the operator's methods count their arguments, so the drawing is watched below them."""
-        from seamwire.tool import acts as chain_acts
+        from seamwire.tool import acts
         from seamwire.tool.chain import Chain
         from seamwire.view.edited_objects import EditedObjects
 
         self.watch(Chain, "__init__", "start")
-        self.watch(chain_acts, "act_first", "start")
-        self.watch(chain_acts, "act", "event")
+        self.watch(acts, "act_first", "start")
+        self.watch(acts, "act", "event")
         for name in ("trouble", "finish"):
             self.watch(Chain, name, "event")
         for name in ("hover", "on_update", "tick"):

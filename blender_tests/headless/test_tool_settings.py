@@ -8,7 +8,7 @@ import bpy
 import pytest
 from scene import add_grid, edit
 from seamwire.mesh import settings as chosen
-from seamwire.tool import acts as chain_acts
+from seamwire.tool.acts import ACTS
 from seamwire.tool.keymaps import HELP_PANEL
 from seamwire.ui import toolbar
 from seamwire.words.keys import Action
@@ -105,4 +105,4 @@ def test_options_have_the_defaults_of_the_settings(tool: chosen.SeamwireSettings
 
 
 def test_each_action_of_a_chain_is_in_the_table() -> None:
-    assert set(Action) <= set(chain_acts.ACTS)
+    assert set(Action) <= set(ACTS)

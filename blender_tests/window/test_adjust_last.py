@@ -10,7 +10,7 @@ import bpy
 import pytest
 from desk import Desk, choose, drag, draw, undo_steps
 from scene import seams
-from seamwire.tool import running as undo_steps_of_chains
+from seamwire.tool.running import DRAW, EDIT
 
 
 def call(desk: Desk, name: str, **options: object) -> None:
@@ -74,12 +74,12 @@ def guide(desk: Desk) -> None:
 
 
 GESTURES: dict[str, tuple[Callable[[Desk], None], str]] = {
-    "wires": (draw_middle, undo_steps_of_chains.DRAW),
-    "line": (draw_line, undo_steps_of_chains.DRAW),
-    "loop": (add_loop, undo_steps_of_chains.DRAW),
-    "seed": (move_seed, undo_steps_of_chains.EDIT),
-    "removal": (remove, undo_steps_of_chains.EDIT),
-    "stroke": (guide, undo_steps_of_chains.DRAW),
+    "wires": (draw_middle, DRAW),
+    "line": (draw_line, DRAW),
+    "loop": (add_loop, DRAW),
+    "seed": (move_seed, EDIT),
+    "removal": (remove, EDIT),
+    "stroke": (guide, DRAW),
 }
 """Gestures, and the titles of their steps of undo."""
 

@@ -13,7 +13,7 @@ import ui as driver
 from desk import Desk, dismiss, draw
 from scene import chain, edit, seams
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.tool import events as chain_events
+from seamwire.tool import events
 from seamwire.tool.chain import STAGES, Chain
 from seamwire.view.edited_objects import edited
 from slow import Slow
@@ -129,7 +129,7 @@ class Walk:
         """Let the next event end on an error."""
         self.slow.is_slow = False
         with self.monkeypatch.context() as broken:
-            broken.setattr(chain_events, "read", partial(_raise, RuntimeError("broken")))
+            broken.setattr(events, "read", partial(_raise, RuntimeError("broken")))
             self.ui.move(self.desk.at(20))
         dismiss(self.ui)
 

@@ -9,7 +9,7 @@ import ui as driver
 from desk import ORANGE, RED, WHITE, Desk, choose, shows, undo_steps
 from mathutils import Euler
 from scene import add_grid, chain, seams, snapshot
-from seamwire.tool import events as chain_events
+from seamwire.tool import events
 
 
 @pytest.mark.smoke
@@ -52,7 +52,7 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
 def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = cone.start(), cone.ui
     # A redraw between the clicks may take longer than Blender's longest time for a double click.
-    monkeypatch.setattr(chain_events, "time", SimpleNamespace(monotonic=lambda: 0.0))
+    monkeypatch.setattr(events, "time", SimpleNamespace(monotonic=lambda: 0.0))
     edge = cone.at(40, 49)
     ui.wait_until(lambda: not session.computing)
     ui.move(edge)

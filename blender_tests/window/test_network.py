@@ -14,7 +14,7 @@ from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import steps
 from seamwire.tool import keymaps
 from seamwire.view.edited_objects import edited
-from seamwire.words import hints as corner
+from seamwire.words.hints import lines as corner_lines
 
 
 def nothing_else_changed(desk: Desk) -> None:
@@ -90,7 +90,7 @@ def test_s_and_e_end_with_the_chain_and_the_view_shows_them(desk: Desk, end: str
     ui.key("S")
     assert settings().clear
     with second_window(ui):
-        shown = [corner.lines(view.session.picture) for view in edited.views() if view.session.picture.front]
+        shown = [corner_lines(view.session.picture) for view in edited.views() if view.session.picture.front]
         assert len(shown) == 1, "all windows draw the same object"
         assert shown[0][-1] == "Clearing seams"
         assert shown[0][-2].startswith("Across the surface")

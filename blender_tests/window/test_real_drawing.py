@@ -9,7 +9,7 @@ import pytest
 import ui as driver
 from desk import choose
 from scene import add_grid, chain, edit, seams, snapshot
-from seamwire.tool import events as chain_events
+from seamwire.tool import events
 from seamwire.tool.running import chains as running
 
 
@@ -19,7 +19,7 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(
     ui = real_ui
     # A band around the z axis: its middle ring is the loop through each of the ring's edges.
     # A redraw between the clicks may take longer than Blender's longest time for a double click.
-    monkeypatch.setattr(chain_events, "time", SimpleNamespace(monotonic=lambda: 0.0))
+    monkeypatch.setattr(events, "time", SimpleNamespace(monotonic=lambda: 0.0))
     bpy.ops.mesh.primitive_cylinder_add(vertices=12, depth=2.0, end_fill_type="NOTHING")
     obj = bpy.context.active_object
     ui.wait()

@@ -5,7 +5,7 @@ import bpy
 import pytest
 from desk import Desk, choose
 from seamwire.mesh.registration import IS_OLD
-from seamwire.tool import running as chain_status
+from seamwire.tool import running
 from seamwire.ui import toolbar
 
 pytestmark = pytest.mark.every_blender
@@ -15,13 +15,13 @@ pytestmark = pytest.mark.every_blender
 def shown(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The hints that were drawn last."""
     texts: list[str] = []
-    draw = chain_status.draw_hints
+    draw = running.draw_hints
 
     def draw_and_note(header: bpy.types.Header, hints: list[tuple[str, str]]) -> None:
         texts[:] = [text for _, text in hints]
         draw(header, hints)
 
-    for module in (chain_status, toolbar):
+    for module in (running, toolbar):
         monkeypatch.setattr(module, "draw_hints", draw_and_note)
     return texts
 

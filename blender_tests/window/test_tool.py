@@ -14,7 +14,7 @@ from seamwire.tool import draw
 from seamwire.tool.running import chains as running
 from seamwire.view.edited_objects import edited
 from seamwire.view.viewport import place_in
-from seamwire.words import hints as corner
+from seamwire.words.hints import lines as corner_lines
 
 
 def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
@@ -28,7 +28,7 @@ def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
     def named(place: tuple[float, float, float]) -> list[str]:
         ui.move(ui.on_screen(place))
         ui.wait_until(lambda: not edited.front.islands.busy)
-        lines = corner.lines(edited.front.picture)
+        lines = corner_lines(edited.front.picture)
         return [line for line in lines if line.startswith("Island ")]
 
     larger, smaller = (0.03, 0.55, 0.0), (0.03, -0.7, 0.0)

@@ -24,8 +24,7 @@ from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL, settings
 from seamwire.tool import chain as chain_module
-from seamwire.tool import events as chain_events
-from seamwire.tool import keymaps
+from seamwire.tool import events, keymaps
 from seamwire.tool.holds import Hold
 from seamwire.tool.running import chains as running
 from seamwire.tool.running import listening
@@ -494,7 +493,7 @@ BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
     "hover": lambda desk, broken: broken.setattr(Sketch, "hover", fail),
     "hints": lambda desk, broken: broken.setattr(chain_module.Chain, "hints", fail),
     "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
-    "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
+    "event": lambda desk, broken: broken.setattr(events, "read", fail),
     "ending": lambda desk, broken: broken.setattr(Sketch, "end_chain", fail),
     "overlay": break_overlay,
     "engine": break_engine,
