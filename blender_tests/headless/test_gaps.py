@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams that just miss another one closed: ``mesh.seamwire_close_gaps``."""
 
+import bmesh
 import bpy
 import pytest
 from scene import add_grid, chain, changing, edit, seams, set_seams, snapshot
@@ -27,6 +28,17 @@ def test_a_wire_closes_it_and_what_is_marked_stays(nearly: bpy.types.Object) -> 
     before = snapshot(nearly)
     assert bpy.ops.mesh.seamwire_close_gaps() == {"CANCELLED"}, "there is none any more"
     assert snapshot(nearly) == before
+
+
+def test_two_islands_are_three_then(nearly: bpy.types.Object) -> None:
+    def islands() -> int:
+        assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}
+        layer = bmesh.from_edit_mesh(nearly.data).faces.layers.int["island"]
+        return len({face[layer] for face in bmesh.from_edit_mesh(nearly.data).faces})
+
+    assert islands() == 2
+    bpy.ops.mesh.seamwire_close_gaps()
+    assert islands() == 3
 
 
 def test_longer_ones_stay_open_unless_they_are_asked_for(nearly: bpy.types.Object) -> None:

@@ -8,6 +8,7 @@ import bmesh
 import bpy
 import pytest
 from scene import add_grid, add_object, changing, edit, seams, snapshot
+from seamwire.mesh.seam_islands import count_islands, faces_to_cut
 
 pytestmark = pytest.mark.every_blender
 
@@ -50,6 +51,22 @@ def test_islands_that_are_no_discs_are_selected_until_they_are_cut() -> None:
     assert len(seams(tube)) == 1
     assert bpy.ops.mesh.seamwire_select_islands(which="TO_CUT") == {"FINISHED"}
     assert selected(tube) == 0
+
+
+def test_shells_that_meet_in_a_vertex_need_a_cut_each_and_faces_on_one_edge_none() -> None:
+    shell = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (0, 2, 3)]
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 2), (0, 1, 2), (0, 0, 2)]
+    obj = add_object(points, [*shell, *(tuple(v + 3 for v in face) for face in shell)])
+    edit()
+    assert faces_to_cut(obj)[1].tolist() == [1, 1]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj = add_object(
+        [(x, 0, z) for x in (0, 1) for z in (0, 1)] + [(0, 1, 0), (1, 1, 0)], [(0, 1, 2), (0, 2, 3), (0, 2, 4)]
+    )
+    edit()
+    faces, missing = faces_to_cut(obj)
+    assert (faces.tolist(), missing.tolist()) == ([], [])
+    assert count_islands(obj) == 3, "each face is an island"
 
 
 def test_islands_are_stored_as_an_attribute_and_nothing_else_changes() -> None:

@@ -522,6 +522,18 @@ def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
     assert island_count(prism) == 2
 
 
+def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cuts: threading.Event) -> None:
+    before = snapshot(prism)
+    invoke(ui)
+    ui.click(ui.on_screen(FRONT_SIDE))
+    ui.wait(5)
+    assert live()._searches
+    escape(ui)
+    assert not slow_cuts.is_set()
+    assert snapshot(prism) == before
+    assert not edited.covered
+
+
 @pytest.mark.parametrize("step", ["measure", "plan"])
 def test_escape_does_not_wait_for_a_call_that_cannot_be_stopped(
     ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch, step: str

@@ -14,7 +14,7 @@ from seamwire.core.network.drawn import Drawn
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire_networks.network_file import NetworkFile, NetworkFileError
-from seamwire_networks.placing import Landmarks, NearestSurface, Shape, Similarity, doubt_between
+from seamwire_networks.placing import PLACED, Landmarks, NearestSurface, Shape, Similarity, doubt_between
 from seamwire_networks.transfer import Transfer, transfer
 
 pytest.importorskip("seamwire_core")
@@ -345,6 +345,21 @@ def test_a_transfer_tells_its_progress_and_can_be_stopped(file: NetworkFile, pla
     assert seen[0] == 0.0 and 0.5 < seen[-1] < 1.0
     with pytest.raises(native.load().Cancelled):
         transfer(file, target, place=place, source=SOURCE, pairs=pairs, progress=lambda fraction: fraction < 0.5)
+
+
+def test_measuring_distances_can_be_stopped_at_each_step(file: NetworkFile) -> None:
+    pairs = [(0, 0), (4, 6), (8, 12), (40 * 16, 59 * 23)]
+    for least in (0.01, 0.1, 0.2, 0.25):
+        seen: list[float] = []
+
+        def stop(fraction: float, least: float = least, seen: list[float] = seen) -> bool:
+            seen.append(fraction)
+            return fraction < least
+
+        with pytest.raises(native.load().Cancelled):
+            transfer(file, tube(23, 60), place="PAIRS", source=SOURCE, pairs=pairs, progress=stop)
+        assert seen[-1] >= least > seen[-2]
+        assert seen[-1] < PLACED
 
 
 @pytest.mark.parametrize("work", ["__init__", "find"])
