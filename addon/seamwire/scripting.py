@@ -333,7 +333,7 @@ def _checked(
         wanted = f"a number from {low:g} to {high:g}" if high < _NO_LIMIT else f"a number that is at least {low:g}"
     if not is_good:
         raise ValueError(f"{name}={value!r}: choose {wanted}")
-    return {"BOOLEAN": bool, "INT": int, "FLOAT": float}.get(kind, str)(value)
+    return {"BOOLEAN": bool, "INT": int, "FLOAT": float}[kind](value) if kind not in {"ENUM", "STRING"} else value
 
 
 def _option(name: str, value: object, own: bpy.types.Property) -> object:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ..core.network.picks import Pick
 
 LABELS = ".seamwire"
-"""The layer of the edges that holds their labels, see `core.wire_labels`. Blender does not show names that begin so."""
+"""The layer of the edges that holds their labels, see `core.storage.wire_labels`. Blender does not show names that begin so."""
 
 _MOST_CURVES = 2_000
 """Curves whose triangles are remembered."""
@@ -48,7 +48,7 @@ class NothingVisibleError(ValueError):
 
 
 def edit_bmesh(data: bpy.types.Mesh) -> bmesh.types.BMesh:
-    """Return the edit mesh of a mesh with right numbers, which operators such as View Selected leave wrong. All of the add-on uses it."""
+    """Return the edit mesh of a mesh with right numbers, which operators such as View Selected leave wrong."""
     return _numbered(bmesh.from_edit_mesh(data))
 
 

@@ -239,7 +239,8 @@ def unwrap_changed(
     """Unwrap the islands whose seams have changed, or all, of all objects in edit mode; selections stay.
 
     Where nothing stays, all flattened islands are packed. Else each new island gets the texel density it had, and a place near its old
-    one, see ``seamwire_core.place_islands``. Blender unwraps and places islands with pinned corners, or all if it has another `method`.
+    one, see ``seamwire_core.place_islands``. Blender unwraps and places islands with pinned corners, and with
+    another `method` unwraps all.
     `starts` are maps of some objects to start from, (m, 3, 2), in lengths on the model, for all visible triangles.
 
     Raises ValueError or NativeError if there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.

@@ -62,8 +62,9 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         """Select them. The stretch is the operator's own if it was given, otherwise the one that the tool shows."""
         if self.which == "TO_CUT":
             return self._select_islands_to_cut(context)
-        if not self.properties.is_property_set("kind") and settings(context).heat == "AREA":
-            self.kind = "AREA"
+        is_given = self.properties.is_property_set("kind")
+        # It is set in any case, so that Repeat Last measures the same.
+        self.kind = "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
         return self._select_worst_island(context)
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:

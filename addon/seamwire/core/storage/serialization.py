@@ -11,7 +11,6 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -36,15 +35,13 @@ VERSION = 1
 WAS_SEAM = 1
 """A member of a label: the edge was a seam before a wire ran along it."""
 _FIRST_NUMBER = 16
-_FAST = 1
-"""zlib's level: most of a text is coordinates, which hardly get shorter, and all of it is written after each chain."""
 _TOLERANCE = 1e-4
 """How far a vertex may have moved and still be found by its place, as part of the mesh's size."""
 
 Record = dict[str, Any]
 
 
-DAMAGED = (ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError, zlib.error)
+DAMAGED = (ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError)
 """What reading raises where a text is not what it should be."""
 
 
@@ -108,9 +105,8 @@ class Archive:
                     "A newer version of Seamwire drew the wires of this mesh: they were not read or changed"
                 )
             (body,) = rest
-            plain = zlib.decompress(base64.b64decode(body, validate=True))
-            data = json.loads(plain)
-            archive.size = len(plain)
+            data = json.loads(body)
+            archive.size = len(body)
             archive.wires = {_number(number): checked_wire(record) for number, record in data["wires"].items()}
             archive.strokes = {_number(number): dict(record) for number, record in data["strokes"].items()}
             archive._sets = {_number(label): tuple(map(int, members)) for label, members in data["sets"].items()}
@@ -129,8 +125,7 @@ class Archive:
         }
         if not any(kinds.values()):
             return ""
-        plain = json.dumps(kinds, separators=(",", ":")).encode()
-        return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(plain, _FAST)).decode()}"
+        return f"{FORMAT} {VERSION} {json.dumps(kinds, separators=(',', ':'))}"
 
     def merge(self, other: Archive) -> bool:
         """Take in the records of another archive, unless a number stands for something else there: labels would change what they mean."""

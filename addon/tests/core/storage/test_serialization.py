@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import base64
 import json
-import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -41,11 +39,11 @@ def drawn(**options: object) -> PaperMesh:
 
 
 def body(text: str) -> dict[str, Any]:
-    return json.loads(zlib.decompress(base64.b64decode(text.split(" ")[2])))
+    return json.loads(text.split(" ", 2)[2])
 
 
 def text_of(data: object, version: object = VERSION) -> str:
-    return f"{FORMAT} {version} {base64.b64encode(zlib.compress(json.dumps(data).encode())).decode()}"
+    return f"{FORMAT} {version} {json.dumps(data)}"
 
 
 # The archive
@@ -136,7 +134,6 @@ def line(count: int) -> str:
         "seamwire 1",
         "seamwire 1 !",
         "a shopping list",
-        "seamwire 1 " + base64.b64encode(b"no zlib").decode(),
         text_of([]),
         text_of(None),
         text_of({}),
