@@ -314,3 +314,45 @@ def test_what_the_artist_is_told_are_sentences_where_they_are_sent() -> None:
     assert len(found) > 60
     codes = [(name, text) for name, text in found if text and not (text[0].isupper() and " " in text)]
     assert not codes
+
+
+def defined(path: Path) -> set[str]:
+    """Return the names that a module has at its top, those that it imports too."""
+    body = list(ast.parse(path.read_text(encoding="utf-8")).body)
+    body += [node for own in body if isinstance(own, (ast.If, ast.Try)) for node in own.body]
+    found = set()
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            found.add(node.name)
+        elif isinstance(node, (ast.Import, ast.ImportFrom)):
+            found.update(name.asname or name.name for name in node.names)
+        elif isinstance(node, (ast.Assign, ast.AnnAssign)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            found.update(name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name))
+    return found
+
+
+def test_what_runs_in_blender_imports_what_there_is() -> None:
+    top = ROOT.parents[1]
+    folders = (top / "blender_tests", top / "docs", top / "addon/bench", top / "scripts", BATCH)
+    missing, count = [], 0
+    for path in (path for folder in folders for path in sorted(folder.rglob("*.py"))):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            name = getattr(node, "module", None) or ""
+            if not isinstance(node, ast.ImportFrom) or name.split(".")[0] not in {
+                "seamwire",
+                "seamwire_networks",
+                "seamwire_lab",
+            }:
+                continue
+            count += 1
+            place = ROOT.parent / name.replace(".", "/")
+            module = place.with_suffix(".py") if place.with_suffix(".py").exists() else place / "__init__.py"
+            names = defined(module) if module.exists() else set()
+            missing += [
+                f"{path.relative_to(top)}: {name}.{one.name}"
+                for one in node.names
+                if one.name not in names and not ((place / one.name).is_dir() or (place / f"{one.name}.py").exists())
+            ]
+    assert count > 100
+    assert missing == []

@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import pytest
 from scene import add_grid, add_object, changing, edit, seams, snapshot
-from seamwire.mesh.seam_islands import count_islands, faces_to_cut
+from seamwire.mesh.uv_islands import count_islands, faces_to_cut
 
 pytestmark = pytest.mark.every_blender
 
