@@ -449,13 +449,15 @@ def test_what_is_prepared_is_freed_a_while_after_edit_mode_was_left(
 ) -> None:
     live(desk)
     desk.ui.key("RET")
-    view, length = ref(edited.front), 0.5
-    monkeypatch.setattr(edited_objects, "_IDLE", length)
+    view = ref(edited.front)
     for mode in ("OBJECT", "EDIT", "OBJECT"):
         with desk.ui.override():
             bpy.ops.object.mode_set(mode=mode)
         desk.ui.wait(4, redraw=True)
         assert view() is not None, "Edit Mode may be entered again at once"
+    monkeypatch.setattr(edited_objects, "_IDLE", 0.5)
+    edited.sweeper.stop()
+    edited.watch()
     desk.ui.wait_until(lambda: view() is None, 3.0)
     assert not edited.sweeper.is_running
     with desk.ui.override():
