@@ -334,7 +334,7 @@ def defined(path: Path) -> set[str]:
 
 def test_what_runs_in_blender_imports_what_there_is() -> None:
     top = ROOT.parents[1]
-    folders = (top / "blender_tests", top / "docs", top / "addon/bench", top / "scripts", BATCH)
+    folders = (top / "blender_tests", top / "docs", top / "addon/bench", top / "native", top / "scripts", BATCH)
     missing, count = [], 0
     for path in (path for folder in folders for path in sorted(folder.rglob("*.py"))):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -130,7 +130,7 @@ class _Map:
         return self.corners.of_triangles(replace(self._arrays, triangles=table[:, 1:], polygons=table[:, 0]))
 
     def _signs(self) -> tuple[int, int]:
-        """Return what the layer holds of edges that are no seams, and of seams."""
+        """Return the layer's values of edges without a seam, and of edges with one."""
         sign = 2 * (1 + zlib.crc32(self.obj.data.uv_layers.active.name.encode()) % (1 << 29))
         return sign, sign + 1
 

@@ -32,7 +32,7 @@ CLOSE_LENGTH = 6.0
 
 
 class Hold:
-    """What a pressed button drags on an object.
+    """The thing that a pressed button drags on an object.
 
     The `modifiers` of the press are those that are still down. Once the mouse has moved beyond the threshold it `is_drag`. Until then it is
     a click at `snap`, which a stroke does not have. `scale` is that of the display.

@@ -47,7 +47,7 @@ UNKNOWN = Course()
 class Search(NamedTuple):
     """Finds the course of one request: courses that come nearer to it, of which the last one is final.
 
-    The next course raises ValueError if there is none. `lives` returns the live wires that compute for it now.
+    If there is no course, asking for the next one raises ValueError. `lives` returns the live wires that compute for it now.
     """
 
     courses: Iterator[Course]

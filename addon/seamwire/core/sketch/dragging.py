@@ -130,7 +130,7 @@ class Dragging(Interaction):
         return ""
 
     def _lead(self, pick: Pick) -> str:
-        """Find the wires to a pick, and show them if all of them are solved. Return why there is none."""
+        """Find the wires to a pick, and show them if all of them are solved. If a wire is missing, return the reason."""
         self._courses = []
         moved: list[Wire] = []
         missing: list[Leg] = []

@@ -53,10 +53,6 @@ class Interaction:
         """Take in what was computed. Return whether there is something else to be seen."""
         return False
 
-    def keep(self) -> Edit:
-        """Return what a click, or the release of the button, leads to. Raise Refused if that is nothing."""
-        raise NotImplementedError
-
     @property
     def is_final(self) -> bool:
         return True

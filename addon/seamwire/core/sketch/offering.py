@@ -66,7 +66,7 @@ class Offering(Interaction):
         self._crest_taken: Pick | None = None
 
     def clear(self) -> None:
-        """Show no offers. What is asked for is asked for still."""
+        """Show no offers. `wanted` and `bends` stay."""
         self.edge: Pick | None = None
         self.offers: tuple[Wire, ...] = ()
         self.choice = 0

@@ -428,7 +428,7 @@ class Sketch(Board):
         self._settle()
 
     def finish(self, wait: bool = True) -> None:
-        """End the chain, and `wait` until every wire is final. Otherwise wires stay as they are drawn. Those that are not there go."""
+        """End the chain, and `wait` until every wire is final. Otherwise wires stay as drawn. Wires without a course are dropped."""
         self.end_chain()
         if wait and self.waiting:
             self.wait()
