@@ -41,12 +41,12 @@ from seams_engine import SeamwireEngine
 from seamwire_core import PartFinder
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.core.network.network import Network  # these know no Blender
+from seamwire.core.network.drawn import Drawn  # these know no Blender
 from seamwire.core.network.stops import Stops
 from seamwire.core.network.strokes import for_library
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.network.wires import Wire
-from seamwire.core.offers.edge_loops import AMOUNTS, LoopOffers, PartSearch
+from seamwire.core.offers.edge_loops import AMOUNTS, EdgeLoops, PartSearch
 from seamwire.core.solver.solver import Engines
 
 if TYPE_CHECKING:
@@ -168,15 +168,15 @@ class Seamwire:
         every later offer takes one more turn.
         """
         stops = Stops(np.array(sorted(taken)), self._symmetry)
-        loops = LoopOffers(self._engines, stops, self._points, self._parts)
+        loops = EdgeLoops(self._engines, stops, self._points, self._parts)
         # The last loop tells its kind. It has no edges here, because loops of other parts of the seams are no stops.
-        network = Network() if last is None else Network((Wire("EDGES", (), self._points[:0], 0, 0, kind=last),))
+        drawn = Drawn() if last is None else Drawn((Wire("EDGES", (), self._points[:0], 0, 0, kind=last),))
         places, kind = [], None
         for edge in sorted(wanted)[:: max(1, len(wanted) // _EDGES_TRIED)]:
-            offers = loops.find(edge, network)
-            while not loops.final:
+            offers, final = loops.find(edge, drawn)
+            while not final:
                 self.engine.live.wait()
-                offers = loops.find(edge, network)
+                offers, final = loops.find(edge, drawn)
             place = next((i for i, offer in enumerate(offers) if set(offer.edges()) == wanted), None)
             if place is not None:
                 places.append(place + (place > 0))
