@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import shutil
 import threading
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
@@ -553,10 +552,9 @@ def test_escape_does_not_wait_for_a_call_that_cannot_be_stopped(
     with ui.override():
         bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT")
     ui.wait_until(began.is_set)
-    start = time.monotonic()
     ui.key("ESC")
     assert not searches
-    assert time.monotonic() - start < 1.0
+    assert not ended.is_set(), "Esc does not wait for the library"
     assert not edited.covered
     may_end.set()
     ui.wait_until(ended.is_set)

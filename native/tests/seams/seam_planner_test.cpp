@@ -793,20 +793,19 @@ TEST(SeamPlanner, TheSamePlanComesOutTwice) {
 
 TEST(SeamPlanner, StopsSoonWhenItIsCancelled) {
   const auto surface = shared(shapes::bumpy(shapes::icosphere(3), 0.04));
-  using Clock = std::chrono::steady_clock;
   const SeamGoal goal{.distortion = 4.01, .islands = 3};
   for (const int after : {0, 1, 5, 20, 60, 150}) {  // milliseconds: while measuring, and while planning
     std::stop_source stop;
-    std::atomic<Clock::rep> stopped = 0;
+    std::atomic<std::clock_t> stopped = 0;
     const std::jthread timer([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(after));
-      stopped = Clock::now().time_since_epoch().count();
+      stopped = std::clock();
       stop.request_stop();
     });
     const Task task{.stop = stop.get_token(), .progress = {}};
     EXPECT_THROW(SeamPlanner(surface, {}, task).plan(goal, {}, task), Cancelled);
-    const Clock::duration late = Clock::now().time_since_epoch() - Clock::duration(stopped.load());
-    EXPECT_LT(std::chrono::duration<double>(late).count(), 1.0) << "a busy machine is given some time";
+    const auto late = static_cast<double>(std::clock() - stopped) / CLOCKS_PER_SEC;
+    EXPECT_LT(late, 2.0) << "seconds of the processor, of all threads together";
   }
 }
 
