@@ -131,13 +131,12 @@ def test_pages_of_the_development_name_what_there_is(page: str) -> None:
         top,
         top / "scripts",
         native,
-        native / "src",
-        native / "include/seamwire",
+        *(native / library / part for library in ("seamwire", "seamwire_uv") for part in ("", "src", "include")),
     )
     named = re.findall(r"`([^`\s]+)`", (ROOT.parents[1] / f"docs/development/{page}.md").read_text(encoding="utf-8"))
     paths = [name for name in named if re.fullmatch(r"[\w/-]+\.(py|pyi|cpp|hpp|json|md)|[\w-]+(/[\w-]+)+", name)]
     assert [path for path in paths if not any((folder / path).exists() for folder in folders)] == []
-    files = [*named_files(), *native.joinpath("src").rglob("*.?pp"), *native.joinpath("include").rglob("*.?pp")]
+    files = [*named_files(), *native.glob("seamwire*/**/*.?pp")]
     code = "\n".join(path.read_text(encoding="utf-8") for path in files)
     words = [match for name in named if name not in paths if (match := re.fullmatch(r"(\w+)(?:(?:\.|::)(\w+))?", name))]
     assert len(paths) > 15
@@ -146,7 +145,7 @@ def test_pages_of_the_development_name_what_there_is(page: str) -> None:
     def exists(owner: str, member: str | None) -> bool:
         if member is None or not owner.strip("_")[0].isupper():
             return re.search(rf"\b{member or owner}\b", code) is not None
-        body = rf"^(class|struct)( SEAMWIRE_API)? {owner}\b(?:(?!^(?:class|struct) ).)*?\b{member}[(:]"
+        body = rf"^(class|struct)( SEAMWIRE_(UV_)?API)? {owner}\b(?:(?!^(?:class|struct) ).)*?\b{member}[(:]"
         return re.search(body, code, re.MULTILINE | re.DOTALL) is not None
 
     missing = [match[0] for match in words if not exists(*match.groups())]

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "mesh.hpp"
-#include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parameterization/pack.hpp"
-#include "seamwire/parts/part_finder.hpp"
-#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire_uv/maps/flatten.hpp"
+#include "seamwire_uv/maps/pack.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 
 using namespace seamwire;
 

@@ -32,10 +32,6 @@
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parameterization/measure_map.hpp"
-#include "seamwire/parameterization/pack.hpp"
-#include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -44,6 +40,10 @@
 #include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
+#include "seamwire_uv/maps/flatten.hpp"
+#include "seamwire_uv/maps/measure_map.hpp"
+#include "seamwire_uv/maps/pack.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 
 namespace seamwire {
 namespace {

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
+#include "seamwire_uv/maps/measure_map.hpp"
 
 /// Conversions between NumPy's arrays and the library's vectors.
 namespace seamwire::python {

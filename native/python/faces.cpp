@@ -7,9 +7,9 @@
 
 #include "arrays.hpp"
 #include "rooms.hpp"
-#include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/triangulate.hpp"
+#include "seamwire_uv/seams/missing_cuts.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
 

@@ -13,13 +13,13 @@
 #include "arrays.hpp"
 #include "detail/poll.hpp"
 #include "held.hpp"
+#include "maps/with_repeats.hpp"
 #include "names.hpp"
-#include "parameterization/with_repeats.hpp"
 #include "rooms.hpp"
-#include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parameterization/measure_map.hpp"
-#include "seamwire/parameterization/pack.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire_uv/maps/flatten.hpp"
+#include "seamwire_uv/maps/measure_map.hpp"
+#include "seamwire_uv/maps/pack.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {

@@ -11,10 +11,10 @@
 #include "detail/index.hpp"
 #include "held.hpp"
 #include "rooms.hpp"
-#include "seamwire/parameterization/map_stretch.hpp"
-#include "seamwire/parameterization/place_islands.hpp"
-#include "seamwire/parameterization/unwrap_mesh.hpp"
 #include "seamwire/surface/island_hues.hpp"
+#include "seamwire_uv/maps/map_stretch.hpp"
+#include "seamwire_uv/maps/place_islands.hpp"
+#include "seamwire_uv/maps/unwrap_mesh.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {

@@ -15,9 +15,9 @@
 #include "held.hpp"
 #include "names.hpp"
 #include "rooms.hpp"
-#include "seamwire/parts/part_finder.hpp"
-#include "seamwire/parts/scanned_edges.hpp"
-#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
+#include "seamwire_uv/parts/scanned_edges.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
 

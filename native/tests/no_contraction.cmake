@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fails if a source in FOLDER is compiled, by COMMANDS, without -ffp-contract=off.
+# Fails if a source in FOLDER/src or FOLDER_uv/src is compiled, by COMMANDS, without -ffp-contract=off.
 cmake_minimum_required(VERSION 3.25)
 file(READ ${COMMANDS} commands)
 cmake_path(NORMAL_PATH FOLDER)
@@ -9,7 +9,7 @@ set(seen 0)
 foreach(i RANGE ${last})
   string(JSON file GET ${commands} ${i} file)
   string(JSON command GET ${commands} ${i} command)
-  if(file MATCHES "^${FOLDER}" OR file MATCHES "/seamwire\\.dir/Unity/")
+  if(file MATCHES "^${FOLDER}(_uv)?/src/" OR file MATCHES "/seamwire(_uv)?\\.dir/Unity/")
     math(EXPR seen "${seen} + 1")
     if(NOT command MATCHES " -ffp-contract=off ")
       message(SEND_ERROR "Compiled with contraction: ${file}")

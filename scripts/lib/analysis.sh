@@ -46,8 +46,8 @@ tidy_check() {
 vectorized_kernels() {
   local kernels result=0 loops width count compile
   [ "$(uname -m)" = x86_64 ] || { say "Kernels: checked on x86-64 only"; return; }
-  for kernels in native/src/geodesics/window_kernels.cpp native/src/parameterization/dirichlet_kernels.cpp; do
-    compile=(-std=c++20 -O3 -march=x86-64-v2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Inative/include -Inative/src
+  for kernels in native/seamwire/src/geodesics/window_kernels.cpp native/seamwire_uv/src/maps/dirichlet_kernels.cpp; do
+    compile=(-std=c++20 -O3 -march=x86-64-v2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Inative/seamwire/include -Inative/seamwire/src -Inative/seamwire_uv/include -Inative/seamwire_uv/src
       -c "$kernels" -o /dev/null)
     loops=$(grep -c '^  SEAMWIRE_VECTORIZE$' "$kernels")
     "$CLANG" "${compile[@]}" -Werror=pass-failed || result=1
@@ -62,7 +62,7 @@ vectorized_kernels() {
 # The library as Debian's users build it: static, with the installed OpenMesh, found and linked by another project.
 debian_openmesh() {
   cmake -S . -B build/debian -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF >build/configure-debian.log || { cat build/configure-debian.log; return 1; }
-  cmake --build build/debian --target seamwire --parallel "$(nproc)" || return 1
+  cmake --build build/debian --target seamwire_uv --parallel "$(nproc)" || return 1
   ctest --test-dir build/debian --no-tests=error --output-on-failure -R '^install\.'
 }
 

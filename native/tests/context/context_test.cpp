@@ -20,7 +20,7 @@
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/metric_spec.hpp"
-#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

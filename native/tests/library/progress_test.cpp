@@ -21,10 +21,10 @@
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/edges/edge_wires.hpp"
-#include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parameterization/pack.hpp"
-#include "seamwire/parts/part_finder.hpp"
-#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire_uv/maps/flatten.hpp"
+#include "seamwire_uv/maps/pack.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/parts/part_finder.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@
 #include "parts/limbs.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/errors.hpp"
-#include "seamwire/parts/scanned_edges.hpp"
+#include "seamwire_uv/parts/scanned_edges.hpp"
 #include "shapes.hpp"
 #include "surface/real_edges.hpp"
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/parts/part_finder.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
 #include "shapes.hpp"
 #include "surface/real_edges.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/parts/part_finder.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 
 #include "seam_problems.hpp"
 #include "seams/group_planning.hpp"
-#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 #include "slits/slit_tree.hpp"
 
 namespace seamwire {

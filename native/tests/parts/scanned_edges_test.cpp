@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/parts/scanned_edges.hpp"
+#include "seamwire_uv/parts/scanned_edges.hpp"
 
 #include <gtest/gtest.h>
 

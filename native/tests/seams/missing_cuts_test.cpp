@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/seams/missing_cuts.hpp"
+#include "seamwire_uv/seams/missing_cuts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "detail/disjoint_sets.hpp"
-#include "parameterization/cut_open.hpp"
+#include "maps/cut_open.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"
 #include "surface/corner_fans.hpp"

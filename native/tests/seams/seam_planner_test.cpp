@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire_uv/seams/seam_planner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,10 +25,10 @@
 
 #include "detail/index.hpp"
 #include "seam_problems.hpp"
-#include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parts/part_finder.hpp"
-#include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "seamwire_uv/maps/flatten.hpp"
+#include "seamwire_uv/parts/part_finder.hpp"
+#include "seamwire_uv/seams/missing_cuts.hpp"
 #include "thread_sanitizer.hpp"
 
 namespace seamwire {

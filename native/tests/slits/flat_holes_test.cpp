@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "parameterization/cut_open.hpp"
+#include "maps/cut_open.hpp"
 #include "shapes.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"

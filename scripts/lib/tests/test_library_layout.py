@@ -7,50 +7,61 @@ from pathlib import Path
 import pytest
 
 NATIVE = Path(__file__).resolve().parents[3] / "native"
-ROOMS = (
-    "detail",
-    "surface",
-    "picking",
-    "cut",
-    "metric",
-    "embedding",
-    "geodesics",
-    "edges",
-    "wires",
-    "parameterization",
-    "context",
-    "tuning",
-    "prices",
-    "slits",
-    "parts",
-    "search",
-    "decimation",
-    "seams",
-    "live",
-)
-"""From below to above."""
-INTERFACE = NATIVE / "include" / "seamwire"
-FILES = sorted(path for folder in (NATIVE / "src", INTERFACE) for path in folder.glob("*/*.?pp"))
+ROOMS = {
+    "seamwire": (
+        "detail",
+        "surface",
+        "picking",
+        "cut",
+        "metric",
+        "embedding",
+        "geodesics",
+        "edges",
+        "wires",
+        "context",
+        "live",
+    ),
+    "seamwire_uv": ("maps", "tuning", "prices", "slits", "parts", "search", "decimation", "seams"),
+}
+"""From below to above. The second library may use all of the first."""
+ORDER = [(library, room) for library, rooms in ROOMS.items() for room in rooms]
+FILES = sorted(NATIVE.glob("seamwire*/*/**/*.?pp"))
+INTERFACE = [path for path in FILES if "include" in path.parts]
 
 
-def included(path: Path) -> list[tuple[bool, str]]:
-    """Return for each room whose headers a file includes whether that is a header of the interface, and the room."""
+def library_of(path: Path) -> str:
+    return path.relative_to(NATIVE).parts[0]
+
+
+def included(path: Path) -> list[tuple[str, str]]:
+    """Return library and room of each header that a file includes: the library is empty if the header is internal."""
     found = re.findall(
-        r'^#include "(seamwire/)?(?!seamwire/)(\w+)/', path.read_text(encoding="utf-8"), flags=re.MULTILINE
+        r'^#include "(?:(seamwire(?:_uv)?)/)?(?!seamwire)(\w+)/', path.read_text(encoding="utf-8"), flags=re.MULTILINE
     )
-    return [(bool(interface), room) for interface, room in found]
+    return [(library, room) for library, room in found]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(NATIVE)))
 def test_a_file_includes_its_own_room_and_those_below(path: Path) -> None:
-    floor = ROOMS.index(path.parent.name)
-    assert [room for _, room in included(path) if ROOMS.index(room) > floor] == []
+    if path.parent.name == library_of(path):
+        return  # headers of no room
+    floor = ORDER.index((library_of(path), path.parent.name))
+    allowed = ORDER[: floor + 1]
+    rooms = [room for _, room in allowed]
+    wrong = [
+        (library, room)
+        for library, room in included(path)
+        if room not in rooms or (library and (library, room) not in allowed)
+    ]
+    assert wrong == []
 
 
-@pytest.mark.parametrize("path", sorted(INTERFACE.glob("*/*.hpp")), ids=lambda path: f"{path.parent.name}/{path.name}")
+@pytest.mark.parametrize("path", INTERFACE, ids=lambda path: str(path.relative_to(NATIVE)))
 def test_the_interface_includes_nothing_of_the_inside(path: Path) -> None:
-    assert [room for interface, room in included(path) if not interface] == []
+    assert [room for library, room in included(path) if not library] == []
 
 
-def test_every_room_has_files() -> None:
-    assert {path.parent.name for path in FILES} == set(ROOMS)
+def test_every_room_has_files_and_no_name_is_in_both_libraries() -> None:
+    there = {(library_of(path), path.parent.name) for path in FILES}
+    assert there - {(library, library) for library in ROOMS} == set(ORDER)
+    assert len({room for _, room in ORDER}) == len(ORDER)
