@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Marks what a shared library of Seamwire exports. Everything else is hidden. A static library defines
-/// SEAMWIRE_STATIC, and then the mark is empty.
+/// Marks what the shared library seamwire exports: its interface, and the few internal functions that seamwire_uv
+/// calls. Everything else is hidden. A static library defines SEAMWIRE_STATIC, and then the mark is empty.
 #if defined(SEAMWIRE_STATIC)
 #define SEAMWIRE_API
 #elif !defined(_WIN32)

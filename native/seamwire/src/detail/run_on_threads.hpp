@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "seamwire/api.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {
@@ -13,7 +14,8 @@ namespace seamwire::detail {
 /// all threads have ended, it rethrows the first exception that was thrown on one of them.
 ///
 /// Work that calls this function itself does that part alone, because the cores are busy.
-void run_on_threads(std::size_t count, const Task& task, const std::function<double(std::size_t)>& fraction,
-                    const std::function<void(std::size_t, const Task&)>& work);
+SEAMWIRE_API void run_on_threads(std::size_t count, const Task& task,
+                                 const std::function<double(std::size_t)>& fraction,
+                                 const std::function<void(std::size_t, const Task&)>& work);
 
 }  // namespace seamwire::detail
