@@ -52,7 +52,7 @@ def boxes(triangles: int) -> tuple[np.ndarray, np.ndarray]:
     from many_boxes import boxes as model_of
 
     model = model_of(triangles // 12)
-    return model.points, sw.cut_polygons(model.points, model.corners, np.diff(model.start))[0]
+    return model.points, sw.triangulate(model.points, model.corners, np.diff(model.start))[0]
 
 
 def fan(triangles: int) -> tuple[np.ndarray, np.ndarray]:
@@ -215,8 +215,8 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "plane_section": after(lambda n: (surface(n), 0, far(n), [0, 1, 0]), sw.plane_section),
         "face_segments": after(lambda n: (surface(n), ring(n)), sw.face_segments),
         "missing_cuts": after(lambda n: (on := surface(n), ring(n), sw.face_segments(on, ring(n))), sw.missing_cuts),
-        "cut_polygons": after(
-            lambda n: (torus(n)[0], torus(n)[1].ravel(), np.full(len(torus(n)[1]), 3, np.int32)), sw.cut_polygons
+        "triangulate": after(
+            lambda n: (torus(n)[0], torus(n)[1].ravel(), np.full(len(torus(n)[1]), 3, np.int32)), sw.triangulate
         ),
         "has_scanned_edges": after(torus, sw.has_scanned_edges),
         "plan_cuts": after(cut, sw.plan_cuts),

@@ -45,7 +45,7 @@ def triangulated(model: Model) -> Integers:
     sizes = np.diff(model.start)
     if sizes.max() > 4:
         return model.corners[fan(model.start)]
-    triangles, _ = sw.cut_polygons(model.points, model.corners.astype(np.int32), sizes.astype(np.int32))
+    triangles, _ = sw.triangulate(model.points, model.corners.astype(np.int32), sizes.astype(np.int32))
     return triangles.astype(np.int64)
 
 

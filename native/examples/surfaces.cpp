@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh.hpp"
+#include "seamwire/files/mesh_file.hpp"
 #include "seamwire/surface/nearest_points.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
@@ -19,6 +20,13 @@ int main() {
   std::printf("%zu vertices, %zu triangles, %zu edges\n", surface.vertex_count(), surface.face_count(),
               surface.edges().size());
   //! [surface]
+
+  //! [files]
+  const std::vector<Vector> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  write_mesh("quad.ply", {.points = square, .corners = {0, 1, 2, 3}, .sizes = {4}, .colors = {}});
+  const Surface quad = make_surface(read_mesh("quad.ply"));
+  //! [files]
+  std::printf("%zu edges\n", quad.edges().size());
 
   //! [report]
   const Surface fin({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {0.5, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});

@@ -8,7 +8,6 @@
 #include "arrays.hpp"
 #include "rooms.hpp"
 #include "seamwire/surface/segments.hpp"
-#include "seamwire/surface/triangulate.hpp"
 #include "seamwire_uv/seams/missing_cuts.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
@@ -76,47 +75,8 @@ ValueError
 )");
 }
 
-py::tuple cut_polygons(const py::object& points, const py::object& corners, const py::object& sizes) {
-  const std::vector<Vector> own_points = points_from(points, "points");
-  const std::vector<std::int32_t> own_corners = numbers_from(corners, "corners");
-  const std::vector<std::int32_t> own_sizes = numbers_from(sizes, "sizes");
-  Triangulation cut = without_gil([&] { return triangulate(own_points, own_corners, own_sizes); });
-  return py::make_tuple(handed_over(std::move(cut.triangles)), handed_over(std::move(cut.polygons)));
-}
-
-void bind_cut_polygons(py::module_& module) {
-  module.def("cut_polygons", &cut_polygons, py::arg("points"), py::arg("corners"), py::arg("sizes"),
-             R"(Cut triangles and quads into triangles, as Blender does.
-
-A quad is cut from its first corner to its third, unless one of the two triangles would lie on the other.
-
-Parameters
-----------
-points : (n, 3) array_like of float
-corners : (c,) array_like of int
-    Vertices, polygon by polygon.
-sizes : (p,) array_like of int
-    How many corners each polygon has: 3 or 4.
-
-Returns
--------
-triangles : (m, 3) int32
-    In the order and the orientation of the polygons.
-polygons : (m,) int32
-    The polygon of each triangle.
-
-Raises
-------
-ValueError
-    If a size is not 3 or 4, the sizes do not add up to the number of corners, or a vertex is out of range.
-)");
-}
-
 }  // namespace
 
-void bind_faces(py::module_& module) {
-  bind_segments(module);
-  bind_cut_polygons(module);
-}
+void bind_faces(py::module_& module) { bind_segments(module); }
 
 }  // namespace seamwire::python

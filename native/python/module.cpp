@@ -21,6 +21,7 @@ functions on other threads stop and raise SystemExit.)";
   pybind11::register_exception<seamwire::Cancelled>(module, "Cancelled", PyExc_RuntimeError);
   stop_at_interpreter_exit();
   bind_surface(module);
+  bind_files(module);
   bind_metric(module);
   bind_metric_specs(module);
   bind_scribble(module);

@@ -9,6 +9,7 @@ namespace seamwire::python {
 namespace py = pybind11;
 
 void bind_surface(py::module_& module);
+void bind_files(py::module_& module);
 void bind_metric(py::module_& module);
 void bind_metric_specs(py::module_& module);
 void bind_scribble(py::module_& module);

@@ -15,6 +15,7 @@ functions on other threads stop and raise SystemExit.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from os import PathLike
 from typing import Literal, overload
 
 import numpy as np
@@ -91,6 +92,150 @@ class Surface:
     """float: the caller's coordinates times this number fit the unit cube."""
     report: SurfaceReport
     """SurfaceReport: unusual parts of the input."""
+
+class FileError: ...
+
+class PolygonMesh:
+    """Points and polygons, as a mesh file has them.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    corners : (c,) array_like of int
+        Vertices, polygon by polygon.
+    sizes : (p,) array_like of int
+        How many corners each polygon has, at least 3.
+    colors : (n, 3) array_like of float, optional
+        Red, green and blue of each vertex, in [0, 1].
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, a vertex is out of range, a size is less than 3, or the sizes do not add up to
+        the number of corners.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        corners: ArrayLike,
+        sizes: ArrayLike,
+        colors: ArrayLike | None = None,
+    ) -> None: ...
+    points: NDArray[np.float64]
+    """(n, 3) float64: coordinates."""
+    corners: NDArray[np.int32]
+    """(c,) int32: vertices, polygon by polygon."""
+    sizes: NDArray[np.int32]
+    """(p,) int32: how many corners each polygon has."""
+    colors: NDArray[np.float64] | None
+    """(n, 3) float64 or None: red, green and blue of each vertex, in [0, 1]."""
+    def surface(self, progress: Callable[[float], bool | None] | None = None) -> Surface:
+        """Build the surface of the mesh.
+
+        Its triangles are those of `triangulate`, and its edges those of the polygons, without diagonals.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
+
+        Returns
+        -------
+        Surface
+
+        Raises
+        ------
+        ValueError
+            If `Surface` rejects the mesh.
+        Cancelled
+        """
+
+def read_mesh(path: str | PathLike[str]) -> PolygonMesh:
+    """Read a mesh from an OBJ, PLY, STL or OFF file.
+
+    The ending of its name tells the format. Coordinates have the precision of the file, whatever the locale is. Texture
+    coordinates, normals, materials, groups and lines are ignored. Corners of STL files with the same coordinates become one vertex.
+
+    Parameters
+    ----------
+    path : str or path-like
+
+    Returns
+    -------
+    PolygonMesh
+        With the colors of vertices if an OBJ, PLY or COFF file has them.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be opened, has another format, or breaks the rules of its format. The message names the line, or in
+        binary files the element.
+    """
+
+def write_mesh(path: str | PathLike[str], mesh: PolygonMesh) -> None:
+    """Write a mesh to an OBJ, PLY, STL or OFF file.
+
+    The ending of its name tells the format. PLY and STL files are binary. STL files have triangles in single precision and no
+    colors. All others have double precision. An existing file is replaced once the new one is complete.
+
+    Parameters
+    ----------
+    path : str or path-like
+    mesh : PolygonMesh
+
+    Raises
+    ------
+    FileError
+        If the format is unknown, or the file cannot be written.
+    ValueError
+        If there are colors for another number of vertices.
+    """
+
+def write_lines(path: str | PathLike[str], lines: Sequence[ArrayLike]) -> None:
+    """Write polylines, such as the points of wires, to an OBJ file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        Its name ends in .obj.
+    lines : sequence of (k, 3) array_like of float
+        The points of each line.
+
+    Raises
+    ------
+    FileError
+        If the name has another ending, or the file cannot be written.
+    ValueError
+        If the points of a line have the wrong shape or type.
+    """
+
+def triangulate(points: ArrayLike, corners: ArrayLike, sizes: ArrayLike) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Cut polygons into triangles.
+
+    Quads are cut as in Blender: from the first corner to the third, unless one of the two triangles would lie on the other.
+    Larger polygons may have dents.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    corners : (c,) array_like of int
+        Vertices, polygon by polygon.
+    sizes : (p,) array_like of int
+        How many corners each polygon has, at least 3.
+
+    Returns
+    -------
+    triangles : (m, 3) int32
+        In the order and the orientation of the polygons.
+    polygons : (m,) int32
+        The polygon of each triangle.
+
+    Raises
+    ------
+    ValueError
+        If a size is less than 3, the sizes do not add up to the number of corners, or a vertex is out of range.
+    """
 
 class Curvature:
     """Principal curvatures at the vertices of a surface.
@@ -2122,36 +2267,6 @@ def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) ->
     ------
     ValueError
         If a vertex is out of range, or the segments belong to another surface or to other cuts.
-    """
-
-def cut_polygons(
-    points: ArrayLike,
-    corners: ArrayLike,
-    sizes: ArrayLike,
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut triangles and quads into triangles, as Blender does.
-
-    A quad is cut from its first corner to its third, unless one of the two triangles would lie on the other.
-
-    Parameters
-    ----------
-    points : (n, 3) array_like of float
-    corners : (c,) array_like of int
-        Vertices, polygon by polygon.
-    sizes : (p,) array_like of int
-        How many corners each polygon has: 3 or 4.
-
-    Returns
-    -------
-    triangles : (m, 3) int32
-        In the order and the orientation of the polygons.
-    polygons : (m,) int32
-        The polygon of each triangle.
-
-    Raises
-    ------
-    ValueError
-        If a size is not 3 or 4, the sizes do not add up to the number of corners, or a vertex is out of range.
     """
 
 class CutCurve:

@@ -22,6 +22,7 @@ HEAD = '''\
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from os import PathLike
 from typing import Literal, overload
 
 import numpy as np
@@ -32,6 +33,7 @@ __version__: str
 CONTAINERS = {"list": "list[{}]", "tuple": "tuple[{}, ...]", "sequence": "Sequence[{}]", "iterable": "Iterable[{}]"}
 NAMES = {
     **{name: f"NDArray[np.{name}]" for name in ("float64", "int32", "uint8", "bool_")},
+    "path-like": "PathLike[str]",
     "callable": "Callable[[float], bool | None]",
 }
 
@@ -69,7 +71,7 @@ def python_type(text: str) -> str:
             member, rest = split(rest, ", ")
             members.append(python_type(member))
         return f"tuple[{', '.join(members)}]"
-    if not re.fullmatch(r"[A-Za-z]\w*", text):
+    if text not in NAMES and not re.fullmatch(r"[A-Za-z]\w*", text):
         raise ValueError(f"no type: {text!r}")
     return NAMES.get(text, text)
 

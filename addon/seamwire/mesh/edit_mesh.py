@@ -242,7 +242,7 @@ def _arrays(
         polygons = column(data.loop_triangles, "polygon_index", np.int32)
         triangles = without_flat_triangles(points, column(data.loop_triangles, "vertices", np.int32, 3), polygons)
     else:
-        triangles, polygons = native.load().cut_polygons(points, corners, sizes)
+        triangles, polygons = native.load().triangulate(points, corners, sizes)
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]

@@ -2,14 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,39 +43,4 @@ inline Mesh torus() {
     const double u = 2 * std::numbers::pi * i / 48, v = 2 * std::numbers::pi * j / 24;
     return seamwire::Vector((3 + std::cos(v)) * std::cos(u), (3 + std::cos(v)) * std::sin(u), std::sin(v));
   });
-}
-
-/// Reads the points and faces of an OBJ file. Larger faces are cut into triangles around their first corner. Throws
-/// std::runtime_error, which names the line, for a line it cannot read.
-inline Mesh read_obj(const std::string& path) {
-  Mesh mesh;
-  auto& [points, triangles] = mesh;
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path);
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const auto check = [&](bool is_right) {
-      if (!is_right)
-        throw std::runtime_error(path + ", line " + std::to_string(number) + ": cannot read '" + line + "'");
-    };
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      double x = 0, y = 0, z = 0;
-      check(static_cast<bool>(words >> x >> y >> z));
-      points.emplace_back(x, y, z);
-    } else if (kind == "f") {
-      std::vector<std::int32_t> corners;
-      const auto count = static_cast<std::int32_t>(points.size());
-      for (std::string corner; words >> corner;) {
-        const int given = std::atoi(corner.c_str());  // as in 7/3/1; negative numbers count from the end
-        corners.push_back(given < 0 ? count + given : given - 1);
-        check(corners.back() >= 0 && corners.back() < count);
-      }
-      check(corners.size() >= 3);
-      for (std::size_t i = 2; i < corners.size(); ++i) triangles.push_back({corners[0], corners[i - 1], corners[i]});
-    }
-  }
-  return mesh;
 }

@@ -52,8 +52,8 @@ def test_a_mesh(points: object, triangles: object, edges: object) -> None:
 
 @given(points=anything, corners=anything, sizes=anything, cut=anything)
 def test_polygons_and_cuts(points: object, corners: object, sizes: object, cut: object) -> None:
-    taken_or_refused(lambda: sw.cut_polygons(points, corners, sizes))
-    taken_or_refused(lambda: sw.cut_polygons(POINTS, corners, sizes))
+    taken_or_refused(lambda: sw.triangulate(points, corners, sizes))
+    taken_or_refused(lambda: sw.triangulate(POINTS, corners, sizes))
     taken_or_refused(lambda: sw.face_segments(SURFACE, cut))
 
 

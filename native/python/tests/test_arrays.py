@@ -179,19 +179,19 @@ def test_tensors_are_those_of_the_metric(curvature: sw.Curvature, metric: sw.Met
 
 def test_polygons_are_cut_into_triangles() -> None:
     points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.3, 0.3, 0.0), (0.0, 1.0, 0.0)]
-    triangles, polygons = sw.cut_polygons(points, [0, 1, 2, 3, 1, 2, 3], [4, 3])
+    triangles, polygons = sw.triangulate(points, [0, 1, 2, 3, 1, 2, 3], [4, 3])
     assert triangles.dtype == polygons.dtype == np.int32
     assert triangles.tolist() == [[0, 1, 2], [0, 2, 3], [1, 2, 3]], (
         "the second quad would fold along the other diagonal"
     )
     assert polygons.tolist() == [0, 0, 1]
-    turned, _ = sw.cut_polygons(points, [1, 2, 3, 0], [4])
+    turned, _ = sw.triangulate(points, [1, 2, 3, 0], [4])
     assert turned.tolist() == [[1, 2, 0], [2, 3, 0]]
-    assert sw.cut_polygons([], [], [])[0].shape == (0, 3)
+    assert sw.triangulate([], [], [])[0].shape == (0, 3)
     with pytest.raises(ValueError, match=r"^sizes: they add up to 4, but there are 3 corners"):
-        sw.cut_polygons(points, [0, 1, 2], [4])
+        sw.triangulate(points, [0, 1, 2], [4])
     with pytest.raises(ValueError, match=r"^points: expected real numbers of shape \(n, 3\)"):
-        sw.cut_polygons([(0.0, 0.0)], [0, 1, 2], [3])
+        sw.triangulate([(0.0, 0.0)], [0, 1, 2], [3])
 
 
 @pytest.mark.parametrize("edge", [np.array(3), np.array(3.5), np.array("ab"), np.array([1]), 5, "abc", None, [1, 2, 3]])

@@ -24,7 +24,7 @@ struct Row {
       polygons.insert(polygons.end(), 2, x);
     }
   }
-  PolygonMesh mesh() const { return {.points = points, .triangles = triangles, .polygons = polygons}; }
+  TriangulatedPolygons mesh() const { return {.points = points, .triangles = triangles, .polygons = polygons}; }
 
   std::vector<Vector> points;
   std::vector<Triangle> triangles;
@@ -121,8 +121,8 @@ TEST(PlanCuts, ReportsProgressAndCanBeCancelled) {
   CutCurve curve{.points = {}, .start = SurfacePoint(0)};
   for (int x = 0; x <= 300; ++x) curve.points.emplace_back(x, 0.5 + 0.3 * std::sin(1.3 * x), 0.0);
   const std::vector<std::int32_t> one_polygon(row.polygons.size(), 0);
-  for (const PolygonMesh& mesh :
-       {row.mesh(), PolygonMesh{.points = row.points, .triangles = row.triangles, .polygons = one_polygon}}) {
+  for (const TriangulatedPolygons& mesh :
+       {row.mesh(), TriangulatedPolygons{.points = row.points, .triangles = row.triangles, .polygons = one_polygon}}) {
     std::size_t looks = 0;
     double last = 0.0;
     plan_cuts(mesh, {&curve, 1}, {.stop = {}, .progress = [&](double fraction) {

@@ -11,6 +11,7 @@ ROOMS = {
     "seamwire": (
         "detail",
         "surface",
+        "files",
         "picking",
         "cut",
         "metric",
@@ -59,6 +60,14 @@ def test_a_file_includes_its_own_room_and_those_below(path: Path) -> None:
 @pytest.mark.parametrize("path", INTERFACE, ids=lambda path: str(path.relative_to(NATIVE)))
 def test_the_interface_includes_nothing_of_the_inside(path: Path) -> None:
     assert [room for library, room in included(path) if not library] == []
+
+
+@pytest.mark.parametrize("library", ROOMS)
+def test_one_header_includes_all_others(library: str) -> None:
+    folder = NATIVE / library / "include"
+    named = re.findall('#include "(.*)"', (folder / library / f"{library}.hpp").read_text(encoding="utf-8"))
+    others = {str(path.relative_to(folder)) for path in folder.rglob("*.hpp")}
+    assert named == sorted(others - {f"{library}/{library}.hpp", f"{library}/api.hpp"})
 
 
 def test_every_room_has_files_and_no_name_is_in_both_libraries() -> None:

@@ -45,17 +45,6 @@ def test_the_first_program_prints_what_the_page_says(capsys: pytest.CaptureFixtu
     assert capsys.readouterr().out == library_pages.blocks(FIRST, "text")[0][1]
 
 
-def test_the_reader_of_files_cuts_faces_and_counts_from_the_end(tmp_path: Path, first_names: dict) -> None:
-    reader = next(code for _, code in library_pages.blocks(FIRST, "python") if "def read_obj" in code)
-    names: dict = {}
-    exec(reader[: reader.index("scan =")], names)
-    file = tmp_path / "quad.obj"
-    file.write_text("# a quad\nv 0 0 0\nv 1 0 0 0.5\n\nv 1 1 0\nv 0 1 0\nf 1/1/1 2/2 3//3 4\nf -4 -2 -1\nl 1 2\n")
-    points, triangles = names["read_obj"](file)
-    assert points == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    assert triangles == [[0, 1, 2], [0, 2, 3], [0, 2, 3]]
-
-
 def test_the_geodesic_in_the_feature_metric_follows_the_ridge(first_names: dict) -> None:
     heights = {name: wire.points[:, 2].min() for name, wire in first_names["wires"].items()}
     assert heights["feature metric"] > 0.9 * first_names["z"].max() > heights["Euclidean"] * 1.2

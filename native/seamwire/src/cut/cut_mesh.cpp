@@ -13,7 +13,7 @@
 namespace seamwire::detail {
 namespace {
 
-const PolygonMesh& checked(const PolygonMesh& mesh) {
+const TriangulatedPolygons& checked(const TriangulatedPolygons& mesh) {
   if (mesh.polygons.size() != mesh.triangles.size()) {
     throw InvalidInput("There are " + std::to_string(mesh.triangles.size()) + " triangles, but the polygons of " +
                        std::to_string(mesh.polygons.size()));
@@ -36,7 +36,7 @@ const PolygonMesh& checked(const PolygonMesh& mesh) {
 
 }  // namespace
 
-CutMesh::CutMesh(const PolygonMesh& mesh)
+CutMesh::CutMesh(const TriangulatedPolygons& mesh)
     : mesh_(checked(mesh)), rows_at_(mesh.points.size(), [&mesh](const auto& visit) {
         for (std::int32_t row = 0; index(row) < mesh.triangles.size(); ++row) {
           for (const std::int32_t v : mesh.triangles[row]) visit(v, row);

@@ -22,7 +22,7 @@ struct Rows {
 class CutMesh {
  public:
   /// Throws InvalidInput as plan_cuts() does.
-  explicit CutMesh(const PolygonMesh& mesh);
+  explicit CutMesh(const TriangulatedPolygons& mesh);
 
   std::span<const Vector> points() const { return mesh_.points; }
   const Triangle& triangle(std::int32_t row) const { return mesh_.triangles[row]; }
@@ -49,7 +49,7 @@ class CutMesh {
   };
   const Rim& rim(std::int32_t polygon) const;
 
-  PolygonMesh mesh_;
+  TriangulatedPolygons mesh_;
   Csr<std::int32_t> rows_at_;
   mutable std::unordered_map<std::int32_t, Rim> rims_;  ///< of the polygons asked for
 };

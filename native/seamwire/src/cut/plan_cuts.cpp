@@ -27,7 +27,7 @@ namespace {
 using Chain = std::vector<std::int32_t>;
 using CutSet = std::set<std::pair<std::int32_t, std::int32_t>>;
 
-void check_point(const PolygonMesh& mesh, const SurfacePoint& point, const std::string& what) {
+void check_point(const TriangulatedPolygons& mesh, const SurfacePoint& point, const std::string& what) {
   if (point.vertex >= 0) {
     check_index(point.vertex, mesh.points.size(), what + ": vertex");
     return;
@@ -40,7 +40,7 @@ void check_point(const PolygonMesh& mesh, const SurfacePoint& point, const std::
   }
 }
 
-void check_curve(const PolygonMesh& mesh, std::span<const CutCurve> curves, std::size_t number) {
+void check_curve(const TriangulatedPolygons& mesh, std::span<const CutCurve> curves, std::size_t number) {
   const CutCurve& curve = curves[number];
   const std::string name = "curve " + std::to_string(number);
   if (curve.points.size() < 2) throw InvalidInput(name + ": expected two points or more");
@@ -217,7 +217,7 @@ std::int32_t CutPlan::node_at(const Triangle& corners, const std::array<double, 
   return found == nodes.end() ? -1 : static_cast<std::int32_t>(found - nodes.begin());
 }
 
-CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves, const Task& given) {
+CutPlan plan_cuts(const TriangulatedPolygons& mesh, std::span<const CutCurve> curves, const Task& given) {
   constexpr double kWalked = 0.5;  // of the work
   const RisingProgress rising(given);
   const Task& task = rising.task();

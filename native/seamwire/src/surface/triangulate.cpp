@@ -4,10 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
-#include <string>
+#include <numeric>
+#include <vector>
 
 #include "detail/index.hpp"
-#include "seamwire/errors.hpp"
+#include "surface/check_polygons.hpp"
 
 namespace seamwire {
 
@@ -32,32 +33,70 @@ bool is_folded(const Vector& a, const Vector& b, const Vector& c, const Vector& 
   return (b - a).cross(diagonal).dot((d - a).cross(diagonal)) > 0;
 }
 
+/// Twice the signed area of a triangle in the plane.
+double area_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// The corners of a polygon in a plane that it is seen counterclockwise in: the plane of two axes that is nearest to
+/// that of the polygon, which Newell's normal gives.
+std::vector<Eigen::Vector2d> in_plane(std::span<const Vector> points, std::span<const std::int32_t> corners) {
+  Vector normal = Vector::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    normal +=
+        (points[corners[i]] - points[corners[0]]).cross(points[corners[(i + 1) % corners.size()]] - points[corners[0]]);
+  }
+  Eigen::Index axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  const Eigen::Index first = (axis + 1) % 3, second = (axis + 2) % 3;
+  std::vector<Eigen::Vector2d> placed;
+  placed.reserve(corners.size());
+  for (const std::int32_t v : corners) {
+    placed.emplace_back(points[v][first], normal[axis] < 0 ? -points[v][second] : points[v][second]);
+  }
+  return placed;
+}
+
+/// Cuts a polygon into triangles by taking away one convex corner after another that contains no other corner
+/// (Meisters, "Polygons have ears", 1975). Where rounding or a polygon that crosses itself leaves no such corner, it
+/// takes the next one.
+void cut_ears(std::span<const Vector> points, std::span<const std::int32_t> corners, std::vector<Triangle>& triangles) {
+  const std::vector<Eigen::Vector2d> at = in_plane(points, corners);
+  std::vector<std::size_t> left(corners.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  const auto is_ear = [&](std::size_t before, std::size_t i, std::size_t after) {
+    if (area_of(at[before], at[i], at[after]) <= 0) return false;
+    return std::ranges::none_of(left, [&](std::size_t other) {
+      return other != before && other != i && other != after && area_of(at[before], at[i], at[other]) >= 0 &&
+             area_of(at[i], at[after], at[other]) >= 0 && area_of(at[after], at[before], at[other]) >= 0;
+    });
+  };
+  while (left.size() > 3) {
+    std::size_t ear = 1;
+    while (ear <= left.size() && !is_ear(left[ear - 1], left[ear % left.size()], left[(ear + 1) % left.size()])) ++ear;
+    if (ear > left.size()) ear = 1;
+    triangles.push_back(
+        {corners[left[ear - 1]], corners[left[ear % left.size()]], corners[left[(ear + 1) % left.size()]]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear % left.size()));
+  }
+  triangles.push_back({corners[left[0]], corners[left[1]], corners[left[2]]});
+}
+
 }  // namespace
 
 Triangulation triangulate(std::span<const Vector> points, std::span<const std::int32_t> corners,
                           std::span<const std::int32_t> sizes) {
-  for (const std::int32_t v : corners) {
-    check_index(v, points.size(), "corners: vertex", "points");
-  }
-  std::size_t total = 0;
-  for (std::size_t p = 0; p < sizes.size(); ++p) {
-    total += static_cast<std::size_t>(sizes[p]);
-    if (sizes[p] == 3 || sizes[p] == 4) continue;
-    throw InvalidInput("sizes: polygon " + std::to_string(p) + " has " + std::to_string(sizes[p]) +
-                       " corners, neither 3 nor 4");
-  }
-  if (total != corners.size()) {
-    throw InvalidInput("sizes: they add up to " + std::to_string(total) + ", but there are " +
-                       std::to_string(corners.size()) + " corners");
-  }
+  check_polygons(points.size(), corners, sizes);
   Triangulation out;
-  out.triangles.reserve(total - 2 * sizes.size());
-  out.polygons.reserve(total - 2 * sizes.size());
+  out.triangles.reserve(corners.size() - 2 * sizes.size());
+  out.polygons.reserve(corners.size() - 2 * sizes.size());
   const std::int32_t* corner = corners.data();
   for (std::size_t p = 0; p < sizes.size(); corner += sizes[p++]) {
     const std::int32_t a = corner[0], b = corner[1], c = corner[2];
     if (sizes[p] == 3) {
       out.triangles.push_back({a, b, c});
+    } else if (sizes[p] > 4) {
+      cut_ears(points, {corner, index(sizes[p])}, out.triangles);
     } else if (const std::int32_t d = corner[3]; is_folded(points[a], points[b], points[c], points[d]) ||
                                                  (!can_be_cut(points[a], points[b], points[c], points[d]) &&
                                                   can_be_cut(points[b], points[c], points[d], points[a]))) {

@@ -21,7 +21,7 @@ namespace seamwire {
 inline constexpr double kCutNear = 0.05;
 
 /// Polygons, cut into triangles. The arrays belong to the caller.
-struct PolygonMesh {
+struct TriangulatedPolygons {
   std::span<const Vector> points;          ///< finite
   std::span<const Triangle> triangles;     ///< vertex numbers; triangles of one polygon have the same orientation
   std::span<const std::int32_t> polygons;  ///< the polygon of each triangle, 0 or more, ascending
@@ -111,6 +111,7 @@ struct SEAMWIRE_API CutPlan {
 /// \throws InvalidInput if polygons are not ascending, or the triangles of a polygon that a curve passes do not form a
 ///   polygon
 /// \throws Cancelled if the task is cancelled
-SEAMWIRE_API CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves, const Task& task = {});
+SEAMWIRE_API CutPlan plan_cuts(const TriangulatedPolygons& mesh, std::span<const CutCurve> curves,
+                               const Task& task = {});
 
 }  // namespace seamwire

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/files/mesh_file.hpp"
+
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <ios>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "files/formats.hpp"
+#include "files/text.hpp"
+#include "seamwire/errors.hpp"
+#include "surface/check_polygons.hpp"
+
+namespace seamwire {
+namespace {
+
+struct Format {
+  std::string_view ending;
+  PolygonMesh (*read)(const std::string&, std::string_view);
+  std::string (*write)(const PolygonMesh&);
+};
+
+constexpr std::array kFormats = {
+    Format{".obj", &detail::read_obj, &detail::write_obj},
+    Format{".ply", &detail::read_ply, &detail::write_ply},
+    Format{".stl", &detail::read_stl, &detail::write_stl},
+    Format{".off", &detail::read_off, &detail::write_off},
+};
+
+/// The name of a file for messages, in UTF-8.
+std::string name_of(const std::filesystem::path& path) {
+  const std::u8string name = path.u8string();
+  return {name.begin(), name.end()};
+}
+
+const Format& format_of(const std::filesystem::path& path) {
+  std::string ending = name_of(path.extension());
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const Format& format : kFormats) {
+    if (ending == format.ending) return format;
+  }
+  throw FileError(name_of(path) + ": the name must end in .obj, .ply, .stl or .off");
+}
+
+/// Writes a file beside the one that it then replaces, so that an error leaves that as it was.
+void replace(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::ofstream file(part, std::ios::binary);
+  if (!file) throw FileError(name_of(path) + ": the file cannot be written");
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(part, path, error);
+  if (file && !error) return;
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  throw FileError(name_of(path) + ": the file cannot be written" + (error ? ": " + error.message() : ""));
+}
+
+}  // namespace
+
+PolygonMesh read_mesh(const std::filesystem::path& path) {
+  const Format& format = format_of(path);
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::error_code error;
+  if (!file || std::filesystem::is_directory(path, error))
+    throw FileError(name_of(path) + ": the file cannot be opened");
+  std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
+  file.seekg(0);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+    throw FileError(name_of(path) + ": the file cannot be read");
+  }
+  return format.read(name_of(path), bytes);
+}
+
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh) {
+  const Format& format = format_of(path);
+  detail::check_polygons(mesh.points.size(), mesh.corners, mesh.sizes);
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.points.size()) {
+    throw InvalidInput("colors: there are " + std::to_string(mesh.colors.size()) + " for " +
+                       std::to_string(mesh.points.size()) + " points");
+  }
+  replace(path, format.write(mesh));
+}
+
+void write_lines(const std::filesystem::path& path, std::span<const std::vector<Vector>> lines) {
+  if (format_of(path).ending != ".obj") throw FileError(name_of(path) + ": the name must end in .obj");
+  std::string text;
+  std::size_t count = 0;
+  for (const std::vector<Vector>& line : lines) {
+    for (const Vector& p : line) {
+      text += 'v';
+      for (const double x : p) detail::append_number(text += ' ', x);
+      text += '\n';
+    }
+    if (line.size() > 1) {
+      text += 'l';
+      for (std::size_t i = 0; i < line.size(); ++i) (text += ' ') += std::to_string(++count);
+      text += '\n';
+    } else {
+      count += line.size();
+    }
+  }
+  replace(path, text);
+}
+
+}  // namespace seamwire
