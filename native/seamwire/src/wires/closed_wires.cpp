@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "surface/exact_unit.hpp"
 #include "wires/loop_parts.hpp"
 #include "wires/path_position.hpp"

@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/polyline.hpp"
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/shortest_paths.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire::detail {

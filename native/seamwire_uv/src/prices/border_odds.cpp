@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {

@@ -8,10 +8,10 @@
 #include <numeric>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "prices/point_tree.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"

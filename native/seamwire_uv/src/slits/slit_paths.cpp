@@ -7,7 +7,7 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/shortest_paths.hpp"
 #include "surface/point_segment.hpp"
 #include "tuning/constants.hpp"
 

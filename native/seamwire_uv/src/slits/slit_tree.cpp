@@ -15,13 +15,13 @@
 #include <unordered_set>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "detail/run_on_threads.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/shortest_paths.hpp"
 #include "prices/border_odds.hpp"
 #include "slits/flat_holes.hpp"
 #include "slits/slit_paths.hpp"

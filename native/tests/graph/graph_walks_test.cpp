@@ -5,9 +5,9 @@
 #include <limits>
 #include <random>
 
-#include "detail/disjoint_sets.hpp"
-#include "detail/edge_chains.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/edge_chains.hpp"
+#include "graph/shortest_paths.hpp"
 
 namespace seamwire::detail {
 namespace {
