@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "detail/poll.hpp"
+#include "graph/cotree.hpp"
 #include "graph/disjoint_sets.hpp"
 #include "graph/edge_chains.hpp"
 #include "graph/loop_erasure.hpp"
@@ -24,6 +26,16 @@ TEST(EdgeChains, EndAtJunctionsAndWhereTheyAreToldTo) {
   EXPECT_EQ(EdgeChains(10, edges).all(nowhere), (std::vector<Nodes>{{0, 1, 2, 3}, {3, 4, 5, 3}, {3, 6}, {7, 8, 9, 7}}));
   EXPECT_EQ(EdgeChains(10, edges).all([](std::int32_t node) { return node == 2 || node == 9; }),
             (std::vector<Nodes>{{0, 1, 2}, {2, 3}, {3, 4, 5, 3}, {3, 6}, {9, 8, 7, 9}}));
+}
+
+TEST(Cotree, TakesEdgesInTheirOrderAndLeavesThoseThatCloseLoops) {
+  const std::vector<std::array<std::int32_t, 2>> sides{{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 0}, {4, 4}};
+  const Task task;
+  Cotree cotree(
+      6, sides.size(), [&](std::size_t i) { return sides[i]; }, Poll(task));
+  EXPECT_EQ(cotree.crossed, (Nodes{0, 1, 3}));
+  EXPECT_EQ(cotree.closing, (Nodes{2, 4, 5}));
+  EXPECT_EQ(cotree.parts.numbering().of, (Nodes{0, 0, 0, 0, 1, 2}));
 }
 
 TEST(LoopErasure, LeavesOutLoopsAsTheWalkClosesThem) {
