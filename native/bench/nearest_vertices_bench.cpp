@@ -10,7 +10,7 @@
 #include <nanoflann.hpp>
 
 #include "mesh_input.hpp"
-#include "prices/point_tree.hpp"
+#include "surface/point_tree.hpp"
 
 namespace seamwire::bench {
 namespace {
@@ -62,7 +62,7 @@ void measure(const std::string& file, int loop, int repeats) {
     std::optional<detail::PointTree> tree;
     ours_built.push_back(seconds([&] { tree.emplace(points, Task{}); }));
     ours_found.push_back(seconds([&] {
-      for (std::size_t v = 0; v < points.size(); ++v) ours[v] = tree->nearest(image(points[v]), radius).point;
+      for (std::size_t v = 0; v < points.size(); ++v) ours[v] = tree->nearest(image(points[v]), radius);
     }));
     const Cloud cloud{points};
     std::optional<Tree> other;

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
 #include "embeddings.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "inserted_point.hpp"
 #include "intrinsic.hpp"
 #include "paths.hpp"

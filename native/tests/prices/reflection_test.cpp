@@ -5,13 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <random>
 #include <stop_token>
 #include <vector>
 
-#include "prices/point_tree.hpp"
 #include "shapes.hpp"
-#include "thread_sanitizer.hpp"
 
 namespace seamwire {
 
@@ -80,47 +77,6 @@ TEST(Reflection, SurvivesAnotherSmallPart) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->images[first], -1);
   EXPECT_TRUE(found->is_exact);
-}
-
-TEST(PointTree, FindsWhatALookAtAllPointsFinds) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
-  const auto point = [&] {
-    const double x = anywhere(random), y = anywhere(random), z = anywhere(random);
-    return Vector(x, y, z);
-  };
-  for (const double radius : {0.05, 0.3, 3.0}) {
-    std::vector<Vector> points(200);
-    for (Vector& one : points) one = point();
-    points.push_back(points.front());  // of equals the first
-    const PointTree tree(points, {});
-    for (int i = 0; i < 200; ++i) {
-      const Vector to = i == 0 ? points.front() : point();
-      std::int32_t nearest = -1;
-      double least = radius * radius;
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        const double distance = (points[k] - to).squaredNorm();
-        if (distance < least) {
-          least = distance;
-          nearest = static_cast<std::int32_t>(k);
-        }
-      }
-      EXPECT_EQ(tree.nearest(to, radius).point, nearest);
-    }
-  }
-}
-
-TEST(PointTree, LooksAtFewPoints) {
-  // Thousands of points are within the radius.
-  const std::vector<Vector> points = shapes::icosphere(sized(6, 4)).points;
-  const PointTree tree(points, {});
-  std::size_t looked_at = 0;
-  for (const Vector& point : points) {
-    const auto found = tree.nearest({-point.x(), point.y(), point.z()}, 0.5);
-    EXPECT_GE(found.point, 0);
-    looked_at += found.looked_at;
-  }
-  EXPECT_LT(looked_at, 60 * points.size());
 }
 
 TEST(Reflection, CanBeCancelled) {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "maps/cut_open.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"

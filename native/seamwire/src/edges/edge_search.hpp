@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "detail/arrival_tree.hpp"
-#include "detail/bucket_queue.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/zeroed_array.hpp"
 #include "edges/edge_graph.hpp"
+#include "graph/arrival_tree.hpp"
+#include "graph/bucket_queue.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {

@@ -8,11 +8,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "edges/edge_adjacency.hpp"
 #include "edges/part_borders.hpp"
+#include "graph/edge_chains.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/real_edges.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "detail/shortest_paths.hpp"
 #include "edges/edge_search.hpp"
+#include "graph/shortest_paths.hpp"
 
 namespace seamwire {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 #include "surface/half_edge_mesh.hpp"

@@ -20,13 +20,13 @@
 #include <vector>
 
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "detail/zeroed_array.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/path_tracing.hpp"
 #include "geodesics/wavefront.hpp"
+#include "graph/indexed_heap.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/task.hpp"
 

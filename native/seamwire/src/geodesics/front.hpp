@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/wavefront.hpp"
 #include "geodesics/window_lists.hpp"
+#include "graph/indexed_heap.hpp"
 
 namespace seamwire::detail {
 

@@ -12,9 +12,9 @@
 #include <optional>
 #include <utility>
 
-#include "detail/edge_chains.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "graph/edge_chains.hpp"
 #include "metric/metric_check.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"

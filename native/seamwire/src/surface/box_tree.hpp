@@ -3,8 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "detail/index.hpp"
@@ -14,8 +17,7 @@ namespace seamwire::detail {
 
 using Box = Eigen::AlignedBox3d;
 
-/// A tree of boxes around items. It parts items in halves by the middles of their boxes, along the axis on which these
-/// lie farthest apart.
+/// A tree of boxes around items, such as triangles, points, or the segments of a line.
 struct BoxTree {
   /// Its items, where they are few; else two nodes that hold them, side by side.
   struct Node {
@@ -25,16 +27,17 @@ struct BoxTree {
   };
   /// Halves are never empty, so the tree is no deeper than a number has bits.
   static constexpr std::size_t kMostDepth = 64;
+  /// A part of a squared distance from a box that is more than rounding may add to it.
+  static constexpr double kRounded = 1.0 - 1e-12;
 
   std::vector<std::int32_t> order;  ///< the items, node by node; those with an empty box are left out
   std::vector<Node> nodes;          ///< the first one holds all; none: there are no items
 
-  /// Builds it for `count` items. `box_of(i)`: the box of an item. `goes_on()` is asked now and then, and ends the
-  /// building by returning false. Returns whether the tree is built.
+  /// Builds it for `count` items. It parts items in halves by the middles of their boxes, along the axis on which these
+  /// lie farthest apart. `box_of(i)`: the box of an item. `goes_on()` is asked now and then, and ends the building by
+  /// returning false. Returns whether the tree is built.
   template <class BoxOf, class GoesOn>
   bool build(std::size_t count, const BoxOf& box_of, const GoesOn& goes_on) {
-    constexpr std::int32_t kMostInANode = 4;
-    constexpr std::size_t kWorkBetweenChecks = 16384;
     // What moves when a node is parted lies in a row: most of the time here is waiting for memory.
     struct Middle {
       Vector at;
@@ -47,26 +50,100 @@ struct BoxTree {
       const Box box = box_of(static_cast<std::int32_t>(i));
       if (!box.isEmpty()) middles.push_back({box.min() / 2 + box.max() / 2, static_cast<std::int32_t>(i)});
     }
-    if (middles.empty()) return true;
-    nodes.reserve(middles.size());
-    nodes.push_back({.box = {}, .first = 0, .count = static_cast<std::int32_t>(middles.size())});
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const std::int32_t first = nodes[n].first, size = nodes[n].count;
-      if ((n % kWorkBetweenChecks == 0 || index(size) > kWorkBetweenChecks) && !goes_on()) return false;
-      if (size <= kMostInANode) continue;
+    const auto part = [&](std::int32_t first, std::int32_t size) {
       const auto begin = middles.begin() + first, middle = begin + size / 2, end = begin + size;
       Box spread;
       for (auto item = begin; item != end; ++item) spread.extend(item->at);
       Eigen::Index axis = 0;
       spread.sizes().maxCoeff(&axis);
       std::nth_element(begin, middle, end, [&](const Middle& s, const Middle& t) { return s.at[axis] < t.at[axis]; });
+    };
+    if (!halve(middles.size(), part, goes_on)) return false;
+    order.reserve(middles.size());
+    for (const Middle& item : middles) order.push_back(item.item);
+    return enclose(box_of, goes_on);
+  }
+
+  /// Builds it for `count` items that follow each other. It parts them in their order.
+  template <class BoxOf>
+  void build_in_order(std::size_t count, const BoxOf& box_of) {
+    constexpr auto kGoesOn = [] { return true; };
+    halve(
+        count, [](std::int32_t, std::int32_t) {}, kGoesOn);
+    order.resize(count);
+    std::iota(order.begin(), order.end(), 0);
+    enclose(box_of, kGoesOn);
+  }
+
+  /// Calls visit(i) for the items order[i] that may be near a place: those in boxes whose squared distance times
+  /// `rounded` is no more than `least`, which `visit` may lower. Nearer boxes come first. `rounded`: kRounded, or 1 if
+  /// no item in a box counts that is nearer than the box by rounding.
+  template <class Visit>
+  void visit_near(const Vector& place, const double& least, double rounded, const Visit& visit) const {
+    struct Waiting {
+      std::int32_t node;
+      double off;
+    };
+    const auto waiting_at = [&](std::int32_t node) {
+      return Waiting{.node = node, .off = rounded * nodes[node].box.squaredExteriorDistance(place)};
+    };
+    std::array<Waiting, kMostDepth> waiting;
+    std::size_t count = 0;
+    if (!nodes.empty()) waiting[count++] = waiting_at(0);
+    while (count > 0) {
+      const Waiting next = waiting[--count];
+      if (next.off > least) continue;
+      const Node& node = nodes[next.node];
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(i);
+      if (node.count > 0) continue;
+      Waiting near = waiting_at(node.first), far = waiting_at(node.first + 1);
+      if (far.off < near.off) std::swap(near, far);
+      waiting[count++] = far;
+      waiting[count++] = near;
+    }
+  }
+
+  /// Calls visit(i) for the items order[i] in boxes that meet a box.
+  template <class Visit>
+  void visit_in(const Box& within, const Visit& visit) const {
+    std::array<std::int32_t, kMostDepth> waiting;
+    std::size_t count = 0;
+    if (!nodes.empty()) waiting[count++] = 0;
+    while (count > 0) {
+      const Node& node = nodes[waiting[--count]];
+      if (!within.intersects(node.box)) continue;
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(i);
+      if (node.count > 0) continue;
+      waiting[count++] = node.first;
+      waiting[count++] = node.first + 1;
+    }
+  }
+
+ private:
+  static constexpr std::int32_t kMostInANode = 4;
+  static constexpr std::size_t kWorkBetweenChecks = 16384;
+
+  /// Makes nodes without boxes. `part(first, size)` moves the items of a node to the half that they belong in.
+  template <class Part, class GoesOn>
+  bool halve(std::size_t count, const Part& part, const GoesOn& goes_on) {
+    if (count == 0) return true;
+    nodes.reserve(count);
+    nodes.push_back({.box = {}, .first = 0, .count = static_cast<std::int32_t>(count)});
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const std::int32_t first = nodes[n].first, size = nodes[n].count;
+      if ((n % kWorkBetweenChecks == 0 || index(size) > kWorkBetweenChecks) && !goes_on()) return false;
+      if (size <= kMostInANode) continue;
+      part(first, size);
       nodes[n].first = static_cast<std::int32_t>(nodes.size());
       nodes[n].count = 0;
       nodes.push_back({.box = {}, .first = first, .count = size / 2});
       nodes.push_back({.box = {}, .first = first + size / 2, .count = size - size / 2});
     }
-    order.reserve(middles.size());
-    for (const Middle& item : middles) order.push_back(item.item);
+    return true;
+  }
+
+  template <class BoxOf, class GoesOn>
+  bool enclose(const BoxOf& box_of, const GoesOn& goes_on) {
     // A node comes before the two that it is parted in.
     for (std::size_t n = nodes.size(); n-- > 0;) {
       Node& node = nodes[n];

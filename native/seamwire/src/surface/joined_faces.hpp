@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "seamwire/surface/triangle_connectivity.hpp"
 
 namespace seamwire::detail {

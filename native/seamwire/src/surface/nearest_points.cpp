@@ -24,8 +24,6 @@ using namespace detail;
 namespace {
 
 constexpr std::size_t kPlacesInAChunk = 256;
-/// The share of a distance to a box that may be rounding.
-constexpr double kBoxRounding = 1e-12;
 
 void check_finite(std::span<const Vector> points, const char* what, const Task& task) {
   const Poll poll(task, 0.0, 0.0, 1);
@@ -158,27 +156,7 @@ NearestPoint NearestPoints::Impl::find(const Vector& place, const Vector* normal
     hint = i;
   };
   look_at(hint);
-  const auto off = [&](std::int32_t node) {
-    return (1.0 - kBoxRounding) * tree.nodes[node].box.squaredExteriorDistance(place);
-  };
-  struct Waiting {
-    std::int32_t node;
-    double off;
-  };
-  std::array<Waiting, BoxTree::kMostDepth> waiting{};
-  std::size_t count = 0;
-  waiting[count++] = {.node = 0, .off = off(0)};
-  while (count > 0) {
-    const Waiting next = waiting[--count];
-    if (next.off > least) continue;
-    const BoxTree::Node& node = tree.nodes[next.node];
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) look_at(i);
-    if (node.count > 0) continue;
-    Waiting near{.node = node.first, .off = off(node.first)}, far{.node = node.first + 1, .off = off(node.first + 1)};
-    if (far.off < near.off) std::swap(near, far);
-    waiting[count++] = far;
-    waiting[count++] = near;
-  }
+  tree.visit_near(place, least, BoxTree::kRounded, look_at);
   return best;
 }
 

@@ -10,9 +10,9 @@
 #include <queue>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"
 #include "surface/real_edges.hpp"

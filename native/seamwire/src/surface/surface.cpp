@@ -13,12 +13,12 @@
 #include <string>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 

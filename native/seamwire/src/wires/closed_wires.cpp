@@ -17,10 +17,11 @@
 #include <utility>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "graph/cotree.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "surface/exact_unit.hpp"
 #include "wires/loop_parts.hpp"
 #include "wires/path_position.hpp"
@@ -104,24 +105,23 @@ class FaceTree {
  public:
   /// The edges must be sorted by their keys, and outlive the tree. Areas are those of the faces.
   FaceTree(const std::vector<double>& areas, const std::vector<Closing>& closing, const Task& task)
-      : closing_(closing), task_(task), faces_(areas.size()), parts_(areas.size()) {
+      : closing_(closing),
+        task_(task),
+        faces_(areas.size()),
+        tree_(
+            areas.size(), closing.size(), [&](std::size_t i) { return std::pair(closing[i].a, closing[i].b); },
+            Poll(task, 0.45, 0.55, closing.size())) {
     for (std::size_t f = 0; f < areas.size(); ++f) faces_[f].area = areas[f];
-    const Poll poll(task, 0.45, 0.55, closing.size());
-    for (std::size_t i = 0; i < closing.size(); ++i) {
-      poll.at(i);
-      const std::int32_t a = closing[i].a, b = closing[i].b;
-      const auto number = static_cast<std::int32_t>(i);
-      if (parts_.join(a, b)) {
-        for (const std::int32_t f : {a, b}) {
-          ++faces_[f].degree;
-          faces_[f].edges ^= number;
-        }
-      } else {
-        left_over_.push_back(number);
-        const std::uint64_t hash = scattered(i);
-        faces_[a].crossing ^= hash;
-        faces_[b].crossing ^= hash;
+    for (const std::int32_t edge : tree_.crossed) {
+      for (const std::int32_t f : {closing[edge].a, closing[edge].b}) {
+        ++faces_[f].degree;
+        faces_[f].edges ^= edge;
       }
+    }
+    for (const std::int32_t edge : tree_.closing) {
+      const std::uint64_t hash = scattered(index(edge));
+      faces_[closing[edge].a].crossing ^= hash;
+      faces_[closing[edge].b].crossing ^= hash;
     }
   }
 
@@ -135,10 +135,11 @@ class FaceTree {
     for (const auto& [edge, hanging] : cuts) {
       poll.next();
       const bool separates = faces_[hanging].crossing == 0;
-      const double all = whole[parts_.find(hanging)], side = std::min(faces_[hanging].area, all - faces_[hanging].area);
+      const double all = whole[tree_.parts.find(hanging)];
+      const double side = std::min(faces_[hanging].area, all - faces_[hanging].area);
       if (!separates || side >= kLeastArea * all) visit(edge, separates);
     }
-    for (const std::int32_t edge : left_over_) visit(edge, false);
+    for (const std::int32_t edge : tree_.closing) visit(edge, false);
   }
 
  private:
@@ -181,7 +182,7 @@ class FaceTree {
     const Poll poll(task_, 0.57, 0.58, faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       poll.at(f);
-      double& of = whole[parts_.find(static_cast<std::int32_t>(f))];
+      double& of = whole[tree_.parts.find(static_cast<std::int32_t>(f))];
       of = std::max(of, faces_[f].area);
     }
     return whole;
@@ -190,8 +191,7 @@ class FaceTree {
   const std::vector<Closing>& closing_;
   const Task& task_;
   std::vector<Face> faces_;
-  DisjointSets parts_;
-  std::vector<std::int32_t> left_over_;
+  Cotree tree_;
 };
 
 /// The mean distance of a loop's points from another one.

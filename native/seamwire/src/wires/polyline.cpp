@@ -14,7 +14,6 @@ namespace {
 /// rule of high order.
 constexpr std::size_t kSamples = 8;
 constexpr double kRoom = 1.0 + 1e-9;  // much more than distances are rounded by
-constexpr std::size_t kSegmentsOfALeaf = 4;
 
 double fraction(std::size_t sample) { return (static_cast<double>(sample) + 0.5) / kSamples; }
 
@@ -33,7 +32,7 @@ Polyline::Polyline(const std::vector<Vector>& points) {
     const double length2 = along.squaredNorm();
     segments_.push_back({points[i], along, length2 > 0 ? 1.0 / length2 : 0.0});
   }
-  build(points, 0, segments_.size());
+  tree_.build_in_order(segments_.size(), [&](std::int32_t s) { return Box(points[s]).extend(points[s + 1]); });
 }
 
 double Polyline::squared_distance(const Vector& p, const Segment& s) {
@@ -43,21 +42,7 @@ double Polyline::squared_distance(const Vector& p, const Segment& s) {
 
 double Polyline::distance(const Vector& p, double bound) const {
   double best = bound * bound;
-  std::array<std::int32_t, 64> stack;  // the tree is balanced: 64 levels hold any number of segments
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (node.box.squaredExteriorDistance(p) > best) continue;
-    if (node.left < 0) {
-      for (std::size_t s = node.begin; s < node.end; ++s) best = std::min(best, squared_distance(p, segments_[s]));
-      continue;
-    }
-    const std::int32_t left = node.left, right = node.right;
-    const bool left_first = nodes_[left].box.squaredExteriorDistance(p) <= nodes_[right].box.squaredExteriorDistance(p);
-    stack[size++] = left_first ? right : left;
-    stack[size++] = left_first ? left : right;
-  }
+  tree_.visit_near(p, best, 1.0, [&](std::int32_t s) { best = std::min(best, squared_distance(p, segments_[s])); });
   return std::sqrt(best);
 }
 
@@ -72,31 +57,19 @@ double Polyline::integral(const Vector& a, const Vector& b, double at_a, double 
   }
   // Distances change no faster than their points move, so none on the edge is more than this.
   const double length = (b - a).norm(), most = 0.5 * (at_a + at_b + length) * kRoom;
-  Eigen::AlignedBox3d reach(a.cwiseMin(b).array() - most, a.cwiseMax(b).array() + most);
-  std::array<std::int32_t, 64> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (!reach.intersects(node.box)) continue;
-    if (node.left >= 0) {
-      stack[size++] = node.left;
-      stack[size++] = node.right;
-      continue;
+  const Box reach(a.cwiseMin(b).array() - most, a.cwiseMax(b).array() + most);
+  tree_.visit_in(reach, [&](std::int32_t s) {
+    const auto [from, along, per_length2] = segments_[s];
+    for (std::size_t i = 0; i < kSamples; ++i) {  // a loop that compilers make vectors of
+      const double px = x[i] - from.x(), py = y[i] - from.y(), pz = z[i] - from.z();
+      double t = (px * along.x() + py * along.y() + pz * along.z()) * per_length2;
+      t = t < 0.0 ? 0.0 : t;
+      t = t > 1.0 ? 1.0 : t;
+      const double dx = px - t * along.x(), dy = py - t * along.y(), dz = pz - t * along.z();
+      const double squared = dx * dx + dy * dy + dz * dz;
+      best[i] = squared < best[i] ? squared : best[i];
     }
-    for (std::size_t s = node.begin; s < node.end; ++s) {
-      const auto& [from, along, per_length2] = segments_[s];
-      for (std::size_t i = 0; i < kSamples; ++i) {  // a loop that compilers make vectors of
-        const double px = x[i] - from.x(), py = y[i] - from.y(), pz = z[i] - from.z();
-        double t = (px * along.x() + py * along.y() + pz * along.z()) * per_length2;
-        t = t < 0.0 ? 0.0 : t;
-        t = t > 1.0 ? 1.0 : t;
-        const double dx = px - t * along.x(), dy = py - t * along.y(), dz = pz - t * along.z();
-        const double squared = dx * dx + dy * dy + dz * dz;
-        best[i] = squared < best[i] ? squared : best[i];
-      }
-    }
-  }
+  });
   double sum = 0.0;
   for (const double squared : best) sum += std::sqrt(squared);
   return sum * length / kSamples;
@@ -109,20 +82,6 @@ double Polyline::least_integral(double length, double at_a, double at_b) {
     sum += std::max({0.0, at_a - t, at_b - (length - t)});
   }
   return sum * length / kSamples / kRoom;
-}
-
-std::int32_t Polyline::build(const std::vector<Vector>& points, std::size_t begin, std::size_t end) {
-  const auto number = static_cast<std::int32_t>(nodes_.size());
-  Node node{.box = {}, .begin = begin, .end = end};
-  for (std::size_t i = begin; i <= end; ++i) node.box.extend(points[i]);
-  nodes_.push_back(node);
-  if (end - begin > kSegmentsOfALeaf) {
-    const std::size_t middle = begin + (end - begin) / 2;
-    const std::int32_t left = build(points, begin, middle), right = build(points, middle, end);
-    nodes_[number].left = left;
-    nodes_[number].right = right;
-  }
-  return number;
 }
 
 }  // namespace seamwire::detail

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Geometry>
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "seamwire/surface/vector.hpp"
+#include "surface/box_tree.hpp"
 
 namespace seamwire::detail {
 
@@ -34,17 +32,11 @@ class Polyline {
     Vector from, along;
     double per_length2;  // 0: it is a point
   };
-  struct Node {
-    Eigen::AlignedBox3d box;
-    std::size_t begin, end;
-    std::int32_t left = -1, right = -1;
-  };
 
   static double squared_distance(const Vector& p, const Segment& s);
-  std::int32_t build(const std::vector<Vector>& points, std::size_t begin, std::size_t end);
 
   std::vector<Segment> segments_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;  // of the segments in their order
 };
 
 }  // namespace seamwire::detail

@@ -11,11 +11,12 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/loop_erasure.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/polyline.hpp"
 
@@ -308,17 +309,11 @@ class BandSearch {
     push(cost, edge, kReached);
   }
 
-  /// The vertices of the path that ends with an edge. A path that meets itself, to turn more gently, leaves the loop
-  /// out.
+  /// The vertices of the path that ends with an edge.
   std::vector<std::int32_t> chain(std::int32_t last) const {
-    std::vector<std::int32_t> path{heads_[last]};
-    std::vector<bool> is_on_path(distances_.size());
-    is_on_path[path.back()] = true;
-    for (std::int32_t edge = last; edge >= 0; edge = states_[edge].before) {
-      for (; is_on_path[tail(edge)]; path.pop_back()) is_on_path[path.back()] = false;
-      path.push_back(tail(edge));
-      is_on_path[path.back()] = true;
-    }
+    std::vector<std::int32_t> back{heads_[last]};
+    for (std::int32_t edge = last; edge >= 0; edge = states_[edge].before) back.push_back(tail(edge));
+    std::vector<std::int32_t> path = without_loops(back);
     std::ranges::reverse(path);
     for (std::int32_t& vertex : path) vertex = vertices_.numbers()[vertex];
     return path;

@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "graph/disjoint_sets.hpp"
 
 namespace seamwire::detail {
 namespace {

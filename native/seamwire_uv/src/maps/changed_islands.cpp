@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "maps/straight_corners.hpp"
 #include "seamwire/errors.hpp"
 

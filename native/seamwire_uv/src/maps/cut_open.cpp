@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "graph/disjoint_sets.hpp"
 
 namespace seamwire::detail {
 

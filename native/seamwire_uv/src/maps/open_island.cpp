@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
-#include "detail/shortest_paths.hpp"
+#include "detail/poll.hpp"
+#include "graph/cotree.hpp"
+#include "graph/shortest_paths.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire::detail {
@@ -105,21 +106,24 @@ std::vector<std::int32_t> boundary_vertices(const std::vector<std::vector<std::i
 /// Cuts that leave a disc: the edges that neither the paths nor a spanning tree of the triangles take, each with the
 /// paths to both of its ends. The tree takes edges inside polygons first, and then prefers edges whose closed curve is
 /// long.
-std::vector<std::uint8_t> greedy_system(const Island& island, const Paths& paths) {
-  std::vector<std::int32_t> order;
-  DisjointSets triangles(island.triangles.size());
+std::vector<std::uint8_t> greedy_system(const Island& island, const Paths& paths, const Task& task) {
+  std::vector<std::int32_t> order, real;
   for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
     if (island.twins[h] < h) continue;
-    if (!paths.can_be_cut(h)) triangles.join(h / 3, island.twins[h] / 3);
-    if (paths.can_be_cut(h) && !paths.is_on_path(h)) order.push_back(h);
+    if (!paths.can_be_cut(h)) order.push_back(h);
+    if (paths.can_be_cut(h) && !paths.is_on_path(h)) real.push_back(h);
   }
   const auto curve = [&](std::int32_t h) {
     return paths.distance(paths.tail(h)) + paths.length(h) + paths.distance(paths.tip(h));
   };
-  std::ranges::stable_sort(order, std::ranges::greater(), curve);
+  std::ranges::stable_sort(real, std::ranges::greater(), curve);
+  order.insert(order.end(), real.begin(), real.end());
+  const auto sides = [&](std::size_t i) { return std::pair(order[i] / 3, island.twins[order[i]] / 3); };
+  const Cotree cotree(island.triangles.size(), order.size(), sides, Poll(task));
   std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
-  for (const std::int32_t h : order) {
-    if (triangles.join(h / 3, island.twins[h] / 3)) continue;
+  for (const std::int32_t i : cotree.closing) {
+    const std::int32_t h = order[i];
+    if (!paths.can_be_cut(h)) continue;
     is_cut[h] = is_cut[island.twins[h]] = 1;
     paths.mark(paths.tail(h), is_cut);
     paths.mark(paths.tip(h), is_cut);
@@ -200,7 +204,7 @@ OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> i
           boundaries.empty() ? slit_in_ball(result.island, paths, task) : longer_slit(result.island, paths, boundaries);
     } else {
       paths.search(boundaries.empty() ? std::vector<std::int32_t>{0} : boundary_vertices(boundaries), task);
-      is_cut = greedy_system(result.island, paths);
+      is_cut = greedy_system(result.island, paths, task);
     }
     OpenedIsland opened = open_along(result.island, is_cut);
     if (opened.opened == 0) fail(island);

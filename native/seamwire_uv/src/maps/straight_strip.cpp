@@ -11,16 +11,14 @@
 
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
+#include "maps/quad_skew.hpp"
 
 namespace seamwire::detail {
 
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-/// Two triangles with a sharper fold are not a quad.
-constexpr double kMostFold = 40.0 * kDegree;
-/// The fold, plus how far the corners are from 90 degrees on average, is at most this for two triangles of a quad.
-constexpr double kMostBent = 55.0 * kDegree;
 /// Triangles lower than this part of their longest side do not decide how wide a row or column is.
 constexpr double kLowest = 1e-4;
 
@@ -75,16 +73,16 @@ class QuadFinder {
     return std::atan2(one.cross(other).norm(), one.dot(other));
   }
 
-  /// How far the two triangles at a half-edge are from a flat rectangle.
-  double bent(std::int32_t h) const {
+  /// How far the two triangles at a half-edge are from a flat rectangle; kInfinity if they are no quad.
+  double skew(std::int32_t h) const {
     const std::int32_t twin = island_.twins[h];
     const double fold = angle(normal(h), normal(twin));
-    if (!(fold <= kMostFold)) return kMostBent + 1.0;
-    const std::array<double, 4> corners{corner(h) + corner(next_in_face(twin)), corner(next_in_face(h)) + corner(twin),
-                                        corner(previous_in_face(h)), corner(previous_in_face(twin))};
-    double off = 0.0;
-    for (const double each : corners) off += 0.25 * std::abs(each - 0.5 * std::numbers::pi);
-    return fold + off;
+    if (!(fold <= kMostFold * kDegree)) return kInfinity;
+    const double skew = quad_skew(fold,
+                                  {corner(h) + corner(next_in_face(twin)), corner(next_in_face(h)) + corner(twin),
+                                   corner(previous_in_face(h)), corner(previous_in_face(twin))},
+                                  0.5 * std::numbers::pi);
+    return skew <= kMostSkew * kDegree ? skew : kInfinity;
   }
 
   /// Pairs the triangles that have real edges only. Triangles with one possible partner get it first, because each
@@ -94,8 +92,8 @@ class QuadFinder {
     for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
       const std::int32_t twin = island_.twins[h];
       if (twin < h || is_free[h / 3] == 0 || is_free[twin / 3] == 0) continue;
-      const double score = bent(h);
-      if (score <= kMostBent) pairs.emplace_back(score, h);
+      const double score = skew(h);
+      if (score != kInfinity) pairs.emplace_back(score, h);
     }
     std::ranges::sort(pairs);
     may_pair_.assign(island_.twins.size(), 0);

@@ -13,7 +13,7 @@
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/shortest_paths.hpp"
 
 namespace seamwire::detail {
 namespace {

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/minimum_cut.hpp"
+#include "graph/shortest_paths.hpp"
 #include "parts/limb_field.hpp"
-#include "parts/minimum_cut.hpp"
 #include "prices/plan_mesh.hpp"
 #include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/task.hpp"
 

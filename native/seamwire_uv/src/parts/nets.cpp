@@ -14,10 +14,10 @@
 #include <tuple>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "maps/island_map.hpp"
 #include "tuning/constants.hpp"
 

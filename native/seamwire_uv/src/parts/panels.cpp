@@ -8,11 +8,11 @@
 #include <numbers>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
-#include "parts/minimum_cut.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/minimum_cut.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "tuning/constants.hpp"
 

@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "detail/text.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "parts/figure.hpp"
 #include "parts/limbs.hpp"
 #include "parts/nets.hpp"

@@ -14,11 +14,11 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
-#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "parts/minimum_cut.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/edge_chains.hpp"
+#include "graph/minimum_cut.hpp"
 #include "slits/slit_tree.hpp"
 #include "surface/joined_faces.hpp"
 #include "tuning/constants.hpp"

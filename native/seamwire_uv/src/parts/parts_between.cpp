@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "graph/edge_chains.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "surface/real_edges.hpp"
 

@@ -11,11 +11,12 @@
 #include <utility>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "maps/quad_skew.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -27,16 +28,15 @@ constexpr std::size_t kMostEdges = 24;  // around a vertex; lines end at the mid
 double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t h) {
   const std::int32_t twin = mesh.twins[h];
   const double fold = degrees_between(frames[h / 3].normal, frames[twin / 3].normal);
-  if (!(fold < tuning::kMostFold)) return kInfinity;
+  if (!(fold < kMostFold)) return kInfinity;
   const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)],
                                       mesh.points[mesh.apex(h)]};
-  double deviation = 0.0;
+  std::array<double, 4> angles{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector& at = corners[i];
-    deviation += std::abs(degrees_between(corners[(i + 1) % 4] - at, corners[(i + 3) % 4] - at) - 90.0);
+    angles[i] = degrees_between(corners[(i + 1) % 4] - corners[i], corners[(i + 3) % 4] - corners[i]);
   }
-  const double skew = fold + deviation / 4.0;
-  return skew < tuning::kMostSkew ? skew : kInfinity;
+  const double skew = quad_skew(fold, angles, 90.0);
+  return skew < kMostSkew ? skew : kInfinity;
 }
 
 /// The box around some points that has the least diagonal of all directions. A box along the axes would depend on how

@@ -8,13 +8,13 @@
 #include <numeric>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
-#include "prices/point_tree.hpp"
+#include "graph/disjoint_sets.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
+#include "surface/point_tree.hpp"
 #include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
@@ -276,7 +276,7 @@ std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double o
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
     poll.at(index(v));
     const Vector image = found.mirrored(mesh.points[v]);
-    std::int32_t nearest = tree.nearest(image, radius).point;
+    std::int32_t nearest = tree.nearest(image, radius);
     if (nearest >= 0 && surface_distance(nearest, image) > tuning::kNearImage * diagonal) nearest = -1;
     found.images.push_back(nearest);
     total += areas[v];

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "detail/text.hpp"
+#include "graph/edge_chains.hpp"
 #include "maps/left_out_uvs.hpp"
 #include "maps/measure_islands.hpp"
 #include "seams/group_planning.hpp"

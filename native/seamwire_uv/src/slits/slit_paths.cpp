@@ -7,7 +7,8 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/loop_erasure.hpp"
+#include "graph/shortest_paths.hpp"
 #include "surface/point_segment.hpp"
 #include "tuning/constants.hpp"
 
@@ -110,21 +111,9 @@ std::vector<std::int32_t> TurningPaths::path(std::int32_t vertex) const {
   std::vector<std::int32_t> vertices;
   if (arrival_[vertex] < 0) return vertices;
   vertices.push_back(vertex);
-  for (std::int32_t d = arrival_[vertex]; d >= 0; d = before_[d]) {
-    const std::int32_t h = mesh_.half_edge_of[d / 2];
-    vertices.push_back(d % 2 == 0 ? mesh_.tail(h) : mesh_.tip(h));
-  }
+  for (std::int32_t d = arrival_[vertex]; d >= 0; d = before_[d]) vertices.push_back(tail(d));
   std::ranges::reverse(vertices);
-  // With turns paid for, a path may come back to a vertex. The loop is left out.
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    for (std::size_t k = vertices.size() - 1; k > i; --k) {
-      if (vertices[k] != vertices[i]) continue;
-      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i),
-                     vertices.begin() + static_cast<std::ptrdiff_t>(k));
-      break;
-    }
-  }
-  return vertices;
+  return without_loops(vertices);
 }
 
 std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vector> line, double spread,

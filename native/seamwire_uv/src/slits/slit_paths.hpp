@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "detail/indexed_heap.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
+#include "graph/indexed_heap.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
 #include "slits/slit_plan.hpp"

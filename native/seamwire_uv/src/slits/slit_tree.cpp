@@ -15,13 +15,14 @@
 #include <unordered_set>
 #include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "detail/run_on_threads.hpp"
-#include "detail/shortest_paths.hpp"
+#include "graph/cotree.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/shortest_paths.hpp"
 #include "prices/border_odds.hpp"
 #include "slits/flat_holes.hpp"
 #include "slits/slit_paths.hpp"
@@ -244,17 +245,16 @@ class HandleLoops {
       if (island_.twins[h] > h && !is_in_tree(h)) inner.push_back({-loop_price(h), h});
     }
     polled_sort(inner, Poll(task_));
-    DisjointSets faces(island_.triangles.size());
+    const auto sides = [&](std::size_t i) {
+      return std::pair(inner[i].second / 3, island_.twins[inner[i].second] / 3);
+    };
+    const Cotree cotree(island_.triangles.size(), inner.size(), sides, Poll(task_));
     std::vector<std::pair<double, std::int32_t>> through;  // the half-edges that loops lead through
-    std::vector<std::int32_t> crossed;                     // half-edges of a tree of triangles
-    for (const auto& [price, h] : inner) {
-      poll_.next();
-      if (faces.join(h / 3, island_.twins[h] / 3)) {
-        crossed.push_back(h);
-      } else if (std::isfinite(price)) {
-        through.emplace_back(-price, h);
-      }
+    for (const std::int32_t i : cotree.closing) {
+      if (std::isfinite(inner[i].first)) through.emplace_back(-inner[i].first, inner[i].second);
     }
+    std::vector<std::int32_t> crossed;  // half-edges of a tree of triangles
+    for (const std::int32_t i : cotree.crossed) crossed.push_back(inner[i].second);
     std::ranges::reverse(through);
     std::vector<std::vector<std::int32_t>> loops = along_lines(through, crossed);
     if (!loops.empty()) return loops;

@@ -136,12 +136,8 @@ inline constexpr double kLeastPrice = 0.05;
 /// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
 inline constexpr double kMostOdds = 4.0;
 
-// Polygons: pairs of triangles that count as quads, and lines of edges.
+// Polygons: lines of edges. quad_skew.hpp says which triangles count as quads.
 
-/// Degrees between the triangles of a quad, at most.
-inline constexpr double kMostFold = 40.0;
-/// Degrees of the fold and of the mean deviation of the corners from 90 degrees together, at most.
-inline constexpr double kMostSkew = 55.0;
 /// Degrees that a line turns at most at a vertex of four edges, where the opposite edge continues it.
 inline constexpr double kOverVertex = 80.0;
 /// Degrees that a line turns at most at other vertices, where the straightest edge continues it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "detail/bucket_queue.hpp"
+#include "graph/bucket_queue.hpp"
 
 #include <gtest/gtest.h>
 

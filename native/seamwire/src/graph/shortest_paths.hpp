@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "detail/indexed_heap.hpp"
+#include "graph/indexed_heap.hpp"
 
 namespace seamwire::detail {
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <random>
 
-#include "detail/disjoint_sets.hpp"
-#include "detail/edge_chains.hpp"
-#include "detail/shortest_paths.hpp"
+#include "detail/poll.hpp"
+#include "graph/cotree.hpp"
+#include "graph/disjoint_sets.hpp"
+#include "graph/edge_chains.hpp"
+#include "graph/loop_erasure.hpp"
+#include "graph/shortest_paths.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -22,6 +26,29 @@ TEST(EdgeChains, EndAtJunctionsAndWhereTheyAreToldTo) {
   EXPECT_EQ(EdgeChains(10, edges).all(nowhere), (std::vector<Nodes>{{0, 1, 2, 3}, {3, 4, 5, 3}, {3, 6}, {7, 8, 9, 7}}));
   EXPECT_EQ(EdgeChains(10, edges).all([](std::int32_t node) { return node == 2 || node == 9; }),
             (std::vector<Nodes>{{0, 1, 2}, {2, 3}, {3, 4, 5, 3}, {3, 6}, {9, 8, 7, 9}}));
+}
+
+TEST(Cotree, TakesEdgesInTheirOrderAndLeavesThoseThatCloseLoops) {
+  const std::vector<std::array<std::int32_t, 2>> sides{{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 0}, {4, 4}};
+  const Task task;
+  Cotree cotree(
+      6, sides.size(), [&](std::size_t i) { return sides[i]; }, Poll(task));
+  EXPECT_EQ(cotree.crossed, (Nodes{0, 1, 3}));
+  EXPECT_EQ(cotree.closing, (Nodes{2, 4, 5}));
+  EXPECT_EQ(cotree.parts.numbering().of, (Nodes{0, 0, 0, 0, 1, 2}));
+}
+
+TEST(LoopErasure, LeavesOutLoopsAsTheWalkClosesThem) {
+  EXPECT_EQ(without_loops(Nodes{}), Nodes{});
+  EXPECT_EQ(without_loops(Nodes{4, 2, 9}), (Nodes{4, 2, 9}));
+  EXPECT_EQ(without_loops(Nodes{0, 1, 2, 3, 1, 4}), (Nodes{0, 1, 4}));
+  EXPECT_EQ(without_loops(Nodes{0, 1, 2, 3, 1, 5, 2, 6}), (Nodes{0, 1, 5, 2, 6})) << "2 is on a loop that is gone";
+  EXPECT_EQ(without_loops(Nodes{7, 8, 7}), Nodes{7});
+  Nodes there_and_back(20000);
+  for (std::size_t i = 0; i < there_and_back.size(); ++i) {
+    there_and_back[i] = static_cast<std::int32_t>(std::min(i, there_and_back.size() - 1 - i));
+  }
+  EXPECT_EQ(without_loops(there_and_back), Nodes{0});
 }
 
 TEST(EdgeChains, TwoEdgesBetweenTheSameNodesAreAClosedChain) {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
 /// A network of nodes joined by links that can be cut for a price.
-class MinimumCut {
+class SEAMWIRE_API MinimumCut {
  public:
   explicit MinimumCut(std::size_t nodes) : first_(nodes, -1) {}
 
