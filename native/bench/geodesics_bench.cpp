@@ -46,10 +46,10 @@ void measure(const std::string& file, const Options& options) {
   for (int s = 0; s < options.seeds; ++s) {
     const std::int32_t seed = s == 0 ? 0 : any(random);
     for (int i = 0; i < options.repeats; ++i) {
-      std::unique_ptr<DistanceField> field;
+      std::unique_ptr<ExactField> field;
       forget_peak();
       const double before = memory("VmRSS");
-      solving.push_back(seconds([&] { field = std::make_unique<DistanceField>(geodesics->solve(seed)); }));
+      solving.push_back(seconds([&] { field = std::make_unique<ExactField>(geodesics->solve(seed)); }));
       peak = std::max(peak, memory("VmHWM") - before);
       const std::int32_t step = std::max(1, embedding.mesh.vertex_count / 1000);
       for (std::int32_t v = 0; v < embedding.mesh.vertex_count; v += step) {

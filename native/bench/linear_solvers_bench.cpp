@@ -16,8 +16,8 @@
 #include <optional>
 #include <random>
 
-#include "maps/block_cholesky.hpp"
 #include "mesh_input.hpp"
+#include "numeric/block_cholesky.hpp"
 #include "surface/real_edges.hpp"
 
 namespace seamwire::bench {

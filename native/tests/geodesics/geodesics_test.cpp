@@ -372,8 +372,8 @@ TEST(Geodesics, NumberingDoesNotMatter) {
 
 TEST(Geodesics, RepeatedSolvesAgreeToTheBit) {
   const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(4), 0.1)));
-  const DistanceField field = geodesics.solve(5);
-  DistanceField again = field;
+  const ExactField field = geodesics.solve(5);
+  ExactField again = field;
   std::jthread([&] { again = geodesics.solve(5); }).join();
   EXPECT_EQ(field.distances(), again.distances());
   const GeodesicCounters &counters = field.counters(), &counters_again = again.counters();

@@ -512,7 +512,7 @@ TEST(TriangleComplexes, WindowsDoNotMultiplyAroundNeedles) {
                    {3, 5, 7}}};
   const IntrinsicMesh complex = shapes::intrinsic(mesh);
   for (std::int32_t seed = 0; seed < complex.vertex_count; ++seed) {
-    const DistanceField field = ExactGeodesics(complex).solve(seed);
+    const ExactField field = ExactGeodesics(complex).solve(seed);
     EXPECT_LT(field.counters().windows, 20000U);
     for (std::int32_t v = 0; v < complex.vertex_count; ++v) {
       const double distance = field.distances()[index(v)];

@@ -10,6 +10,7 @@ NATIVE = Path(__file__).resolve().parents[3] / "native"
 ROOMS = {
     "seamwire": (
         "detail",
+        "numeric",
         "graph",
         "surface",
         "files",

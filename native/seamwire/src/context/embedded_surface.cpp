@@ -9,6 +9,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "metric/metric_check.hpp"
+#include "wires/path_position.hpp"
 
 namespace seamwire {
 
@@ -120,11 +121,18 @@ EmbeddedField EmbeddedSurface::field(const SurfacePoint& seed, const Task& task)
 
 EmbeddedField EmbeddedSurface::field(std::span<const SurfacePoint> sources, const SolveOptions& options,
                                      const Task& task) const {
+  return field(geodesics(part_of(task, 0.0, 0.0)), sources, options, task);
+}
+
+EmbeddedField EmbeddedSurface::field(const DistanceMethod& method, std::span<const SurfacePoint> sources,
+                                     const SolveOptions& options, const Task& task) const {
   std::vector<SurfacePoint> seeds;
   for (const SurfacePoint& source : sources) seeds.push_back(locate(source, "seed"));
   SolveOptions own{.max_distance = options.max_distance, .targets = {}};
   for (const SurfacePoint& target : options.targets) own.targets.push_back(locate(target, "target"));
-  return {*this, geodesics(part_of(task, 0.0, 0.0)).solve(seeds, own, task)};
+  DistanceField distances = method.solve(seeds, own, task);
+  check_field(embedding(), distances);
+  return {*this, std::move(distances)};
 }
 
 double EmbeddedField::distance(const SurfacePoint& point, const Task& task) const {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "detail/instruction_sets.hpp"
 #include "geodesics/window_lists.hpp"
+#include "numeric/instruction_sets.hpp"
 
 namespace seamwire::detail {
 

@@ -10,7 +10,7 @@
 
 #include <cstddef>
 
-#include "detail/instruction_sets.hpp"
+#include "numeric/instruction_sets.hpp"
 
 namespace seamwire::detail {
 

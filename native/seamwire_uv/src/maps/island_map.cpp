@@ -12,10 +12,10 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
-#include "maps/block_cholesky.hpp"
 #include "maps/outline.hpp"
 #include "maps/symmetric_dirichlet.hpp"
 #include "maps/tutte.hpp"
+#include "numeric/block_cholesky.hpp"
 
 namespace seamwire::detail {
 namespace {

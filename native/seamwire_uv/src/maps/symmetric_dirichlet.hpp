@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "maps/block_cholesky.hpp"
 #include "maps/dirichlet_kernels.hpp"
+#include "numeric/block_cholesky.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
 

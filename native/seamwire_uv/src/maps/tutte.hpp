@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "maps/block_cholesky.hpp"
 #include "maps/cut_open.hpp"
+#include "numeric/block_cholesky.hpp"
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 

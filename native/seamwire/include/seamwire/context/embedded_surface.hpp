@@ -12,6 +12,8 @@
 #include "seamwire/api.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
+#include "seamwire/geodesics/distance_method.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/metric_spec.hpp"
 #include "seamwire/wires/bent_wires.hpp"
@@ -132,6 +134,18 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \throws Cancelled if the task is cancelled
   EmbeddedField field(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
                       const Task& task = {}) const;
+  /// Compute distances with any method.
+  ///
+  /// \param method a method that is prepared on the mesh of this embedding
+  /// \param sources one or more points of the surface
+  /// \param options when the solve may stop; its targets are points of the surface
+  /// \param task progress and cancellation
+  /// \returns the distances, and the wires
+  /// \throws InvalidInput if locate() rejects a source or a target, or DistanceMethod::solve() rejects an argument
+  /// \throws InvalidInput if the method is prepared on another mesh, as far as sizes tell
+  /// \throws Cancelled if the task is cancelled
+  EmbeddedField field(const DistanceMethod& method, std::span<const SurfacePoint> sources,
+                      const SolveOptions& options = {}, const Task& task = {}) const;
   /// Return whether two embedded surfaces are copies of each other.
   friend bool operator==(const EmbeddedSurface&, const EmbeddedSurface&) = default;
 
@@ -164,7 +178,7 @@ class SEAMWIRE_API EmbeddedField {
   /// \throws InvalidInput if EmbeddedSurface::locate() rejects the point
   /// \throws Cancelled if the task is cancelled
   double distance(const SurfacePoint& point, const Task& task = {}) const;
-  /// Trace the shortest wire to any point.
+  /// Trace the wire to any point. It is the shortest one if the distances are exact.
   ///
   /// \param point a point of the surface
   /// \param task progress and cancellation

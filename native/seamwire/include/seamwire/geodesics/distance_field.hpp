@@ -26,46 +26,76 @@ struct PathPoint {
   std::array<double, 3> barycentric{};  ///< in `face`
 };
 
-/// A geodesic over an IntrinsicMesh, from a source to a target. It is straight in each triangle.
+/// A path over an IntrinsicMesh, from a source to a target. It is straight in each triangle.
 struct IntrinsicPath {
   std::vector<PathPoint> points;    ///< empty if the target is unreachable; one point if it is the source
   std::vector<std::int32_t> faces;  ///< the triangle that each segment crosses or bounds; -1 along a loose edge
   double length = std::numeric_limits<double>::infinity();  ///< sum of the lengths of the segments
 };
 
-/// Counts the work of a solve. The counts are the same for the same input on every machine.
-struct GeodesicCounters {
-  std::size_t lists = 0;    ///< window lists propagated
-  std::size_t windows = 0;  ///< windows propagated
+/// What a method for distances has solved, from which a DistanceField is made.
+///
+/// A method derives its own class from it, sets the members and implements the functions. Several threads may call the
+/// functions at once.
+class SEAMWIRE_API SolvedField {
+ public:
+  std::vector<SurfacePoint> sources;  ///< the points that distances start from, as given
+  std::vector<double> distances;      ///< per vertex: 0 or more, infinite if no path leads there or beyond `radius`
+  double radius = std::numeric_limits<double>::infinity();  ///< the distance at which the solve stopped
+  std::size_t face_count = 0;                               ///< the number of triangles of the mesh
+  std::shared_ptr<const void> mesh;                         ///< identifies the mesh: see DistanceField::mesh_id()
+
+  virtual ~SolvedField();
+  /// Compute the distance of any point, as DistanceField::distance() promises.
+  ///
+  /// \param point a point of the mesh, not yet checked
+  /// \param task progress and cancellation
+  virtual double distance(const SurfacePoint& point, const Task& task) const = 0;
+  /// Trace the path to any point, as DistanceField::trace() promises.
+  ///
+  /// \param point a point of the mesh, not yet checked
+  /// \param task progress and cancellation
+  virtual IntrinsicPath trace(const SurfacePoint& point, const Task& task) const = 0;
+
+ protected:
+  SolvedField() = default;
+  SolvedField(const SolvedField&) = default;
+  SolvedField(SolvedField&&) = default;
+  SolvedField& operator=(const SolvedField&) = default;
+  SolvedField& operator=(SolvedField&&) = default;
 };
 
 /// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh.
 ///
-/// It also traces the paths. ExactGeodesics makes it. Immutable. Copies share the data.
+/// It also traces the paths. A DistanceMethod makes it, and determines whether distances are exact. Immutable. Copies
+/// share the data.
 class SEAMWIRE_API DistanceField {
  public:
+  /// Make a field of what a method has solved.
+  ///
+  /// \param solved the result of the method, not null
+  /// \throws InvalidInput if `solved` is null
+  explicit DistanceField(std::shared_ptr<const SolvedField> solved);
+
   /// Return the vertex that distances start from, -1 if there are several sources or the source is not a vertex.
   std::int32_t seed() const;
   /// Return the points that distances start from, as given.
-  const std::vector<SurfacePoint>& sources() const;
-  /// Return how much work the solve took.
-  const GeodesicCounters& counters() const;
+  const std::vector<SurfacePoint>& sources() const { return solved_->sources; }
   /// Return the distance at which the solve stopped, or infinity. Larger distances are infinite.
-  double radius() const;
+  double radius() const { return solved_->radius; }
   /// Return whether a mesh has as many vertices and triangles as the field's mesh.
   ///
   /// \param mesh the mesh
   bool fits(const IntrinsicMesh& mesh) const;
-  /// Return a handle that identifies the mesh. All fields of one ExactGeodesics and its copies have the same handle,
+  /// Return a handle that identifies the mesh. All fields of one DistanceMethod and its copies have the same handle,
   /// and no other field has it.
-  std::weak_ptr<const void> mesh_id() const;
+  std::weak_ptr<const void> mesh_id() const { return solved_->mesh; }
   /// Return the distance of each vertex, infinite if no path leads there.
-  const std::vector<double>& distances() const;
+  const std::vector<double>& distances() const { return solved_->distances; }
 
   /// Compute the distance of any point.
   ///
-  /// It is exact too, not interpolated from the vertices. The time is about proportional to the number
-  /// of triangles that the path crosses.
+  /// ExactGeodesics computes it exactly, and does not interpolate it from the vertices.
   ///
   /// \param point a point of the mesh
   /// \param task progress and cancellation
@@ -74,10 +104,10 @@ class SEAMWIRE_API DistanceField {
   /// \throws InvalidInput if barycentric coordinates are not finite, or below 0, or their sum is not 1
   /// \throws Cancelled if the task is cancelled
   double distance(const SurfacePoint& point, const Task& task = {}) const;
-  /// Trace the shortest path from the nearest source to any point.
+  /// Trace the path from the nearest source to any point.
   ///
-  /// The path's length is the distance, up to rounding. Tracing takes time proportional to the number of triangles that
-  /// the path crosses.
+  /// The path of ExactGeodesics is the shortest one, and its length is the distance, up to rounding. Tracing takes time
+  /// about proportional to the number of triangles that the path crosses.
   ///
   /// \param point a point of the mesh
   /// \param task progress and cancellation
@@ -86,12 +116,12 @@ class SEAMWIRE_API DistanceField {
   /// \throws Cancelled if the task is cancelled
   IntrinsicPath trace(const SurfacePoint& point, const Task& task = {}) const;
 
- private:
-  friend class ExactGeodesics;  // which makes them
-  struct Data;
-  explicit DistanceField(std::shared_ptr<const Data> data);
+ protected:
+  /// Return what the method has solved.
+  const SolvedField& solved() const { return *solved_; }
 
-  std::shared_ptr<const Data> data_;
+ private:
+  std::shared_ptr<const SolvedField> solved_;
 };
 
 }  // namespace seamwire

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
+#include <cstddef>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "seamwire/api.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
+#include "seamwire/geodesics/distance_method.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
@@ -18,26 +18,33 @@ namespace detail {
 class GeodesicMesh;  // the solver's own form of the mesh
 }
 
-/// When a solve may stop.
-///
-/// A distance is final once the front has passed it by the length of the mesh's longest edge. So stopping early saves
-/// less on a mesh with a long edge.
-struct SolveOptions {
-  /// Largest distance to compute, 0 or more. Larger distances are infinite in the result.
-  double max_distance = std::numeric_limits<double>::infinity();
-  /// Points whose distances and paths are needed. The solve stops once all are known, or are beyond `max_distance`.
-  /// DistanceField::radius() tells how far it came. Empty: the whole mesh.
-  std::vector<SurfacePoint> targets;
+/// Counts the work of a solve. The counts are the same for the same input on every machine.
+struct GeodesicCounters {
+  std::size_t lists = 0;    ///< window lists propagated
+  std::size_t windows = 0;  ///< windows propagated
 };
 
-/// Computes geodesic distances on one mesh, from edge lengths alone. It is prepared once and then used for many seeds.
+/// Exact distances, which ExactGeodesics makes.
+class SEAMWIRE_API ExactField : public DistanceField {
+ public:
+  /// Return how much work the solve took.
+  const GeodesicCounters& counters() const;
+
+ private:
+  friend class ExactGeodesics;  // which makes them
+  class Solved;
+  explicit ExactField(std::shared_ptr<const Solved> solved);
+};
+
+/// Computes exact distances on one mesh, from edge lengths alone. It is prepared once and then used for many seeds.
 ///
-/// Copies share the prepared mesh. Any number of threads may call the members at once.
+/// A distance is final once the front has passed it by the length of the mesh's longest edge. So stopping early saves
+/// less on a mesh with a long edge. Copies share the prepared mesh.
 ///
 /// \see Qin et al. 2016, "Fast and Exact Discrete Geodesic Computation Based on Triangle-Oriented Wavefront
 ///   Propagation", for the wavefront
 /// \see Xin and Wang 2009, for the filter
-class SEAMWIRE_API ExactGeodesics {
+class SEAMWIRE_API ExactGeodesics final : public DistanceMethod {
  public:
   /// Prepare a mesh.
   ///
@@ -68,7 +75,7 @@ class SEAMWIRE_API ExactGeodesics {
   /// \returns the distances, and the paths
   /// \throws InvalidInput if DistanceField::distance() rejects the seed
   /// \throws Cancelled if the task is cancelled
-  DistanceField solve(const SurfacePoint& seed, const Task& task = {}) const;
+  ExactField solve(const SurfacePoint& seed, const Task& task = {}) const;
 
   /// Compute exact distances from the nearest of several points.
   ///
@@ -79,11 +86,13 @@ class SEAMWIRE_API ExactGeodesics {
   /// \throws InvalidInput if there is no source, or DistanceField::distance() rejects a source or a target
   /// \throws InvalidInput if the largest distance is negative or not a number
   /// \throws Cancelled if the task is cancelled
-  DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
-                      const Task& task = {}) const;
+  ExactField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
+                   const Task& task = {}) const;
 
  private:
   friend class CorridorPaths;
+  DistanceField solve_checked(std::span<const SurfacePoint> sources, const SolveOptions& options,
+                              const Task& task) const override;
 
   std::shared_ptr<const detail::GeodesicMesh> mesh_;
 };

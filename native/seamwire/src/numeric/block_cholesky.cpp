@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "maps/block_cholesky.hpp"
+#include "numeric/block_cholesky.hpp"
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
-#include "maps/cholesky_kernels.hpp"
+#include "numeric/cholesky_kernels.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire::detail {
@@ -20,8 +21,8 @@ constexpr std::uint32_t round_up_to_4(std::uint32_t n) { return (n + 3) & ~3U; }
 /// About how many multiplications are done between two looks at the task: some milliseconds.
 constexpr std::size_t kWorkBetweenLooks = std::size_t{1} << 23;
 
-std::vector<std::int32_t> minimum_degree_order(std::size_t vertex_count, std::span<const Edge> edges,
-                                               const Task& task) {
+std::vector<std::int32_t> minimum_degree_order(std::size_t vertex_count,
+                                               std::span<const std::array<std::int32_t, 2>> edges, const Task& task) {
   const Csr<std::int32_t> neighbors(vertex_count, [&](const auto& visit) {
     for (const auto& [a, b] : edges) {
       visit(a, b);
@@ -108,7 +109,8 @@ bool is_worth_merging(std::int64_t columns, double zeros) {
 
 }  // namespace
 
-BlockCholesky::BlockCholesky(std::size_t vertex_count, std::span<const Edge> edges, const Task& task) {
+BlockCholesky::BlockCholesky(std::size_t vertex_count, std::span<const std::array<std::int32_t, 2>> edges,
+                             const Task& task) {
   task.check(0.0);
   order_ = minimum_degree_order(vertex_count, edges, task);
   task.check(0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "maps/cholesky_kernels.hpp"
+#include "numeric/cholesky_kernels.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "detail/csr.hpp"
-#include "seamwire/surface/types.hpp"
+#include "seamwire/api.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {
@@ -22,11 +23,11 @@ struct BlockEntry {
 /// The vertices are eliminated in an approximate minimum degree order (Amestoy, Davis and Duff 1996). The factorization
 /// is multifrontal with relaxed supernodes (Liu 1992, "The multifrontal method for sparse matrix solution"): nearly all
 /// arithmetic is on small dense matrices.
-class BlockCholesky {
+class SEAMWIRE_API BlockCholesky {
  public:
   /// Analyses a graph. `edges`: pairs of different vertices; the same pair may occur several times. Throws InvalidInput
   /// if the factor would need 2^32 numbers or more; Cancelled.
-  BlockCholesky(std::size_t vertex_count, std::span<const Edge> edges, const Task& task);
+  BlockCholesky(std::size_t vertex_count, std::span<const std::array<std::int32_t, 2>> edges, const Task& task);
 
   /// Where values() holds the block in the rows of vertex a and the columns of vertex b: an edge of the graph, or the
   /// same vertex twice.

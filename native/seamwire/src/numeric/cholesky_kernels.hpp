@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "detail/instruction_sets.hpp"
+#include "numeric/instruction_sets.hpp"
 
 namespace seamwire::detail {
 
