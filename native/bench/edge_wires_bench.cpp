@@ -131,14 +131,14 @@ void register_case(const std::string& name, const Polygons& mesh) {
     std::size_t i = 0, vertices = 0;
     for (auto _ : state) {
       const Edge edge = data->edge(i++);
-      vertices += wires.trace({edge[0], edge[1]}).vertices.size();
+      vertices += wires.trace({edge[0], edge[1]})->vertices.size();
     }
     count(state);
     state.counters["vertices"] = static_cast<double>(vertices) / static_cast<double>(std::max<std::size_t>(i, 1));
   });
   add("loop", [=](benchmark::State& state) {
     std::size_t i = 0, vertices = 0;
-    for (auto _ : state) vertices += shortest_cycle(*data->graph, data->edge(i++)).vertices.size();
+    for (auto _ : state) vertices += shortest_cycle(*data->graph, data->edge(i++))->vertices.size();
     count(state);
     state.counters["vertices"] = static_cast<double>(vertices) / static_cast<double>(std::max<std::size_t>(i, 1));
   });

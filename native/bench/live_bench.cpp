@@ -219,7 +219,7 @@ std::array<std::vector<double>, 2> strokes_of(const std::shared_ptr<const Surfac
     live.wait();
     const LiveWires before = live.wires({to});
     Scribble scribble = stroke(*surface, from, 16);  // it begins at the seed, so that the wires feel it
-    if (!for_both) scribble.meant_for = MetricKind::kMin;
+    if (!for_both) scribble.acts_on = MetricKind::kMin;
     const Clock::time_point start = Clock::now();
     live.set_scribbles({std::move(scribble)});
     const std::size_t expected = for_both ? 2 : 1;
@@ -320,7 +320,7 @@ void measure(const std::string& file, const Options& options) {
     traced.push_back(seconds([&] { fields[0].trace(to); }));
     both.push_back(seconds([&] {
       for (std::size_t which = 0; which < 2; ++which) {
-        const Wire wire = trace_wire(*surface, embeddings[which], fields[which], to);
+        const Wire wire = trace_wire(*surface, embeddings[which], fields[which], to).value();
         if (!wire.points.empty()) snap_to_edges(*surface, graph, wire);
       }
     }));

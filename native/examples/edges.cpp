@@ -23,7 +23,7 @@ int main() {
   const Metric metric = feature_metric(surface, curvature, Follow::kMin, {.max_anisotropy = 20.0});
   const std::shared_ptr<const EdgeGraph> graph = make_edge_graph(surface, metric);
   const EdgeWires chains = edge_wires(graph, {.a = start});
-  const EdgeChain chain = chains.trace({.a = end});
+  const EdgeChain chain = chains.trace({.a = end}).value();
   std::printf("%zu vertices, cost %g\n", chain.vertices.size(), chain.length);
   //! [chain]
 
@@ -31,7 +31,7 @@ int main() {
   const auto [ring, ring_triangles] = torus();
   const Surface tube(ring, ring_triangles);
   const Metric euclidean = euclidean_metric(tube, principal_curvatures(tube));
-  const EdgeChain cycle = shortest_cycle(*make_edge_graph(tube, euclidean), Edge{0, 1});
+  const EdgeChain cycle = shortest_cycle(*make_edge_graph(tube, euclidean), Edge{0, 1}).value();
   const EdgeLoop loop = edge_loop(*make_edge_adjacency(tube), Edge{0, 1}, {});
   //! [cycle]
   std::printf("%zu and %zu vertices around the tube\n", cycle.vertices.size(), loop.vertices.size());

@@ -17,14 +17,14 @@ int main() {
   const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
   //! [field]
   const EmbeddedField field = embedded.field(start);
-  const Wire wire = field.wire(end);
+  const Wire wire = field.trace(end).value();
   std::printf("length %g, %zu points\n", wire.length, wire.points.size());
   //! [field]
 
   //! [points]
   const SurfacePoint inside{15000, {0.2, 0.3, 0.5}};
   std::printf("distance of a point in a face: %g\n", field.distance(inside));
-  const Wire to_it = field.wire(inside);
+  const Wire to_it = field.trace(inside).value();
   //! [points]
   std::printf("its wire has the length %g\n", to_it.length);
 

@@ -23,7 +23,7 @@ int main() {
   const auto stroked =
       std::make_shared<const Metric>(apply_scribbles(embedded.surface(), embedded.metric(), std::vector{stroke}));
   const EmbeddedSurface changed = embedded.with_metric(stroked);  // embeds only what the stroke has changed
-  const Wire wire = changed.field(start).wire(end);
+  const Wire wire = changed.field(start).trace(end).value();
   //! [stroke]
   std::printf("length %g after the stroke\n", wire.length);
 }

@@ -20,7 +20,7 @@ int main() {
   const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}));
   const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
   //! [snap]
-  const Wire wire = embedded.field(start).wire(end);
+  const Wire wire = embedded.field(start).trace(end).value();
   const std::vector<std::int32_t> chain = snap_to_edges(embedded.surface(), *context.snap_graph(), wire);
   std::printf("%zu vertices from %d to %d\n", chain.size(), chain.front(), chain.back());
   //! [snap]

@@ -406,15 +406,15 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
   for (std::int32_t left = 1 + from.below(3); left > 0; --left) {
     const std::int32_t target = from.below(surface.vertex_count());
     const double distance = field.distances()[static_cast<std::size_t>(target)];
-    const Wire wire = trace_wire(surface, embedding, field, target, patience.task());
-    require(wire.points.empty() == std::isinf(distance), "what is reached has a wire");
-    if (wire.points.empty()) continue;
-    require(wire.from == seed && wire.to == target, "a wire leads from the seed to the target");
-    require(wire.length <= distance * 1.5 + 1e-9, "an exact wire is about as long as the distance");
+    const std::optional<Wire> wire = trace_wire(surface, embedding, field, target, patience.task());
+    require(!wire == std::isinf(distance), "what is reached has a wire");
+    if (!wire) continue;
+    require(wire->from == seed && wire->to == target, "a wire leads from the seed to the target");
+    require(wire->length <= distance * 1.5 + 1e-9, "an exact wire is about as long as the distance");
     const IntrinsicPath path = quick.path(target, patience.task());
     require(!path.points.empty(), "what is reached has a path at once");
     require(path.length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
-    const std::vector<std::int32_t> chain = snap_to_edges(surface, graph, wire);
+    const std::vector<std::int32_t> chain = snap_to_edges(surface, graph, *wire);
     require(std::set(chain.begin(), chain.end()).size() == chain.size(), "a snapped wire repeats no vertex");
   }
 }
@@ -443,7 +443,7 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
   for (std::int32_t left = 1 + from.below(3); left > 0; --left) {
     const Pick target = pick();
     require(wires.is_final(target), "a search that has ended knows all");
-    check_chain(surface, wires.trace(target).vertices);
+    if (const std::optional<EdgeChain> chain = wires.trace(target)) check_chain(surface, chain->vertices);
   }
   if (surface.edges().empty()) return;
   const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];
@@ -451,7 +451,8 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
   for (std::int32_t left = from.below(3); left > 0; --left) stops.push_back(from.below(surface.vertex_count()));
   check_chain(surface, edge_loop(*adjacency, edge, stops).vertices);
   check_chain(surface, extend_straight(*adjacency, edge, stops));
-  const std::vector<std::int32_t> loop = shortest_cycle(*graph, edge, turning, patience.task()).vertices;
+  const std::vector<std::int32_t> loop =
+      shortest_cycle(*graph, edge, turning, patience.task()).value_or(EdgeChain{}).vertices;
   check_chain(surface, loop);
   require(loop.empty() || (loop.size() > 2 && is_edge(surface, loop.front(), loop.back())), "a loop is closed");
   for (const Scribble& scribble : scribbles) {

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 
 #include "arrays.hpp"
@@ -24,7 +25,7 @@ namespace seamwire::python {
 namespace {
 
 struct EdgeWiresObject {
-  EdgeChain trace(const py::object& target) const {
+  std::optional<EdgeChain> trace(const py::object& target) const {
     const Pick pick = pick_from(target, vertex_count, "target");
     return without_gil([&] { return wires.trace(pick); });
   }
@@ -35,10 +36,11 @@ struct EdgeWiresObject {
 
 void bind_chains(py::module_& module) {
   py::class_<EdgeChain>(module, "EdgeChain", "A chain of edges.")
-      .def_property_readonly("vertices", array_of<EdgeChain>(&EdgeChain::vertices),
-                             "(p,) int32: the vertices in order, including picked edges. Empty if there is no chain.")
+      .def_property_readonly(
+          "vertices", array_of<EdgeChain>(&EdgeChain::vertices),
+          "(p,) int32: the vertices in order, including picked edges. Empty if a live wire has no chain.")
       .def_readonly("length", &EdgeChain::length,
-                    "float: lengths in the metric plus the cost of turning. inf if there is no chain.")
+                    "float: lengths in the metric plus the cost of turning. inf if a live wire has no chain.")
       .def("__repr__", [](const EdgeChain& c) {
         return "<EdgeChain: " + std::to_string(c.vertices.size()) + " vertices, length " + number(c.length) + ">";
       });
@@ -72,8 +74,8 @@ target : int or (int, int)
 
 Returns
 -------
-EdgeChain
-    Includes both picks.
+EdgeChain or None
+    Includes both picks. None if there is no chain.
 
 Raises
 ------
@@ -133,8 +135,8 @@ docs/method/edges.md.
 )");
 }
 
-EdgeChain find_shortest_cycle(const SurfaceObject& surface, const MetricObject& metric, const py::object& edge,
-                              double turning, const py::object& progress) {
+std::optional<EdgeChain> find_shortest_cycle(const SurfaceObject& surface, const MetricObject& metric,
+                                             const py::object& edge, double turning, const py::object& progress) {
   const Edge through = edge_from(edge, surface.surface->vertex_count(), "edge");
   check_size("metric", metric.metric.size(), *surface.surface);
   return Watch(progress).run([&](const Task& task) {
@@ -160,8 +162,8 @@ progress : callable, optional
 
 Returns
 -------
-EdgeChain
-    Does not repeat its first vertex. Empty if there is no closed chain.
+EdgeChain or None
+    Does not repeat its first vertex. None if there is no closed chain.
 
 Raises
 ------

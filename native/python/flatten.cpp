@@ -114,12 +114,16 @@ void bind_flatten_function(py::module_& module) {
       "flatten",
       [](const py::object& points, const py::object& triangles, const py::object& cuts, const py::object& start,
          bool keep_apart, std::optional<double> straighten, const py::object& up, const py::object& edges,
-         const py::object& progress) {
+         const py::object& max_steps, double tolerance, const py::object& progress) {
         auto own_points = points_from(points, "points");
         auto own_triangles = triangles_from(triangles, "triangles");
         auto own_edges = real_edges_from(edges);
         const std::vector<Edge> own_cuts = edges_from(cuts, "cuts");
-        FlattenOptions options{.start = {}, .keep_apart = keep_apart, .straighten = straighten};
+        FlattenOptions options{.start = {},
+                               .keep_apart = keep_apart,
+                               .max_steps = count_from(max_steps, "max_steps"),
+                               .tolerance = tolerance,
+                               .straighten = straighten};
         if (!start.is_none()) options.start = corner_uvs_from(start, "start");
         if (!up.is_none()) options.up = vector_from(up, "up");
         return Watch(progress).run([&](const Task& task) {
@@ -129,7 +133,8 @@ void bind_flatten_function(py::module_& module) {
       },
       py::arg("points"), py::arg("triangles"), py::arg("cuts") = py::tuple(), py::kw_only(),
       py::arg("start") = py::none(), py::arg("keep_apart") = true, py::arg("straighten") = py::none(),
-      py::arg("up") = py::none(), py::arg("edges") = py::none(), py::arg("progress") = py::none(),
+      py::arg("up") = py::none(), py::arg("edges") = py::none(), py::arg("max_steps") = FlattenOptions{}.max_steps,
+      py::arg("tolerance") = FlattenOptions{}.tolerance, py::arg("progress") = py::none(),
       R"(Map each island of a surface to the plane.
 
 No triangle is flipped. The symmetric Dirichlet energy is at a local minimum (Smith and Schaefer, "Bijective
@@ -159,6 +164,10 @@ up : (3,) array_like of float, optional
 edges : (e, 2) array_like of int, optional
     The real edges, if the triangles come from polygons. The map is continuous across all other edges of triangles. None:
     every edge of a triangle is real.
+max_steps : int
+    The largest number of Newton steps of one solve, 0 or more. An island may be solved several times.
+tolerance : float
+    The predicted decrease of the mean energy below which an island is finished, 0 or more.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 
@@ -170,7 +179,7 @@ Raises
 ------
 ValueError
     If an array has the wrong shape or type, a number is not finite, a vertex is out of range, there is no edge, or
-    `straighten` is negative. Also if an island cannot be mapped.
+    `straighten`, `max_steps` or `tolerance` is negative. Also if an island cannot be mapped.
 Cancelled
 )");
 }

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,7 +41,7 @@ py::array distances_of(const py::object& self) {
   return view(object.field.distances().data(), {count}, {sizeof(double)}, self);
 }
 
-Wire trace(const FieldObject& object, const py::object& vertex, const py::object& progress) {
+std::optional<Wire> trace(const FieldObject& object, const py::object& vertex, const py::object& progress) {
   const EmbeddingObject& on = *object.embedding;
   const std::int32_t target = vertex_from(vertex, on.surface->vertex_count(), "vertex");
   return Watch(progress).run(
@@ -57,10 +58,10 @@ py::tuple trace_many(const FieldObject& object, const py::object& vertices, cons
     for (std::size_t i = 0; i < targets.size(); ++i) {
       task.check(static_cast<double>(i) / static_cast<double>(targets.size()));
       detail::check_index(targets[i], on.surface->vertex_count(), "vertex");
-      const Wire wire = trace_wire(*on.surface, on.embedding, object.field, targets[i], task);
-      points.insert(points.end(), wire.points.begin(), wire.points.end());
+      const std::optional<Wire> wire = trace_wire(*on.surface, on.embedding, object.field, targets[i], task);
+      if (wire) points.insert(points.end(), wire->points.begin(), wire->points.end());
       starts.push_back(static_cast<std::int32_t>(points.size()));
-      lengths.push_back(wire.length);
+      lengths.push_back(wire ? wire->length : std::numeric_limits<double>::infinity());
     }
     return true;
   });
@@ -96,8 +97,8 @@ progress : callable, optional
 
 Returns
 -------
-Wire
-    Its length is the vertex's distance. It has no points if the vertex is unreachable.
+Wire or None
+    Its length is the vertex's distance. None if the vertex is unreachable.
 
 Raises
 ------
@@ -138,8 +139,8 @@ double distance_to(const FieldObject& object, const py::object& face, const py::
   return Watch(progress).run([&](const Task& task) { return object.field.distance(on.find(point, "point"), task); });
 }
 
-Wire trace_to(const FieldObject& object, const py::object& face, const py::object& barycentric,
-              const py::object& progress) {
+std::optional<Wire> trace_to(const FieldObject& object, const py::object& face, const py::object& barycentric,
+                             const py::object& progress) {
   const EmbeddingObject& on = *object.embedding;
   const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
   return Watch(progress).run([&](const Task& task) {
@@ -184,7 +185,7 @@ face, barycentric, progress
 
 Returns
 -------
-Wire
+Wire or None
     As from `trace`. The number of an end that is not a vertex is -1.
 
 Raises

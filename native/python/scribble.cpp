@@ -34,7 +34,7 @@ std::optional<MetricKind> metric_kind(const std::optional<std::string>& name) {
   throw InvalidInput("follow: expected 'min', 'max', 'concave', 'euclidean' or None, got '" + *name + "'");
 }
 
-std::optional<MetricKind> meant_for(const std::string& acts_on) {
+std::optional<MetricKind> kind_acted_on(const std::string& acts_on) {
   const std::optional<MetricKind> kind = find_kind(acts_on);
   if (kind || acts_on == "both") return kind;
   throw InvalidInput("acts_on: expected 'both', 'min', 'max', 'concave' or 'euclidean', got '" + acts_on + "'");
@@ -43,7 +43,7 @@ std::optional<MetricKind> meant_for(const std::string& acts_on) {
 Scribble make_scribble(const py::object& points, const py::object& faces, const py::object& vertices, double eta,
                        int rings, std::optional<double> radius, bool attracts, const std::string& acts_on) {
   Scribble scribble;
-  scribble.meant_for = meant_for(acts_on);
+  scribble.acts_on = kind_acted_on(acts_on);
   scribble.points = points_from(points, "points");
   if (!faces.is_none()) scribble.faces = numbers_from(faces, "faces");
   if (!vertices.is_none()) scribble.vertices = numbers_from(vertices, "vertices");
@@ -89,7 +89,7 @@ ValueError
       .def_property_readonly("rings", [](const Scribble& s) { return s.rings; })
       .def_property_readonly("radius", [](const Scribble& s) { return s.radius; })
       .def_property_readonly("attracts", [](const Scribble& s) { return s.attracts; })
-      .def_property_readonly("acts_on", [](const Scribble& s) { return s.meant_for ? name_of(*s.meant_for) : "both"; })
+      .def_property_readonly("acts_on", [](const Scribble& s) { return s.acts_on ? name_of(*s.acts_on) : "both"; })
       .def("__repr__", [](const Scribble& s) {
         return "<Scribble: " + std::to_string(s.points.size()) + " points, " + (s.attracts ? "attracts" : "repels") +
                ">";

@@ -52,7 +52,7 @@ inline double mean_plain_length(const Surface& surface) {
 /// 1 - cos kappa at v of the chain a, v, b, read off a wire's length. The turning is so small that no detour pays.
 inline double turn(const Surface& surface, std::int32_t a, std::int32_t v, std::int32_t b) {
   constexpr double kTurning = 1e-3;
-  const EdgeChain chain = edge_wires(plain_graph(surface), {a, v}, kTurning, true).trace({v, b});
+  const EdgeChain chain = edge_wires(plain_graph(surface), {a, v}, kTurning, true).trace({v, b}).value();
   EXPECT_EQ(chain.vertices, Chain({a, v, b}));
   return (chain.length - plain_length(surface, a, v) - plain_length(surface, v, b)) /
          (kTurning * mean_plain_length(surface));

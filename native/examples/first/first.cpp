@@ -19,7 +19,7 @@ void connect(Surface surface, int start, int end) {
   const Strength strength{.max_anisotropy = 20.0, .clamp_percentile = 99.0};
   for (const MetricSpec& metric : {MetricSpec::euclidean(), MetricSpec::feature(Follow::kMin, strength)}) {
     const EmbeddedSurface embedded(context, metric, {.max_error = 0.01});
-    const Wire wire = embedded.field(start).wire(end);
+    const Wire wire = embedded.field(start).trace(end).value();
     const double scale = embedded.surface().scale();
     std::printf("%s: %.3f long, %.3f in the metric, distances are off by about %.1f %% on average\n",
                 info_of(metric.family).name.data(), wire.euclidean_length / scale, wire.length / scale,

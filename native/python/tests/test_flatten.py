@@ -54,6 +54,18 @@ def test_a_barrier_can_be_left_out() -> None:
     assert sw.flatten(points, triangles).overlapping.tolist() == []
 
 
+def test_more_steps_and_a_smaller_tolerance_stretch_less() -> None:
+    points, triangles = meshes.torus(16, 8)
+    cuts = [(16 * v, 16 * ((v + 1) % 8)) for v in range(8)]
+    none, few, usual = (sw.flatten(points, triangles, cuts, max_steps=steps) for steps in (0, 3, 100))
+    assert none.energy > few.energy > usual.energy
+    assert none.steps == 0
+    assert few.steps < usual.steps
+    rough = sw.flatten(points, triangles, cuts, tolerance=0.1)
+    assert rough.steps < usual.steps
+    assert rough.energy > usual.energy
+
+
 def test_a_start_is_continued() -> None:
     points, triangles = meshes.torus(16, 8)
     first = sw.flatten(points, triangles)
@@ -138,6 +150,8 @@ def test_the_energy_of_a_map_is_that_of_its_report() -> None:
         ({"straighten": np.nan}, "straighten is negative or not finite"),
         ({"straighten": np.inf}, "straighten is negative or not finite"),
         ({"straighten": -1.0}, "straighten is negative or not finite"),
+        ({"tolerance": -1.0}, "tolerance is negative"),
+        ({"max_steps": -1}, "max_steps: expected a number that is not negative"),
     ],
 )
 def test_wrong_input_of_flatten(change: dict, message: str) -> None:

@@ -178,6 +178,7 @@ ANY_NUMBERS: dict[tuple[str, str], Call] = {
     ("CutCurve", "end"): lambda bad: sw.CutCurve(POINTS[:2], 0, bad),
     ("CutCurve", "image_of"): lambda bad: sw.CutCurve(POINTS[:2], 0, image_of=bad),
     ("DistanceField.closed_wires", "count"): lambda bad: FIELD.closed_wires(bad),
+    ("flatten", "max_steps"): lambda bad: sw.flatten(POINTS, TRIANGLES, max_steps=bad),
     ("embed", "max_faces_added"): lambda bad: sw.embed(SURFACE, METRIC, max_faces_added=bad),
 }
 

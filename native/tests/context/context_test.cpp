@@ -206,7 +206,7 @@ TEST(SurfaceContext, ManyThreadsGetTheSame) {
         found[i] = context.smoothed_curvature();
         context.snap_graph();
         embedded[i].emplace(context, MetricSpec::concave());
-        embedded[i]->field(0).wire(100);
+        embedded[i]->field(0).trace(100);
       });
     }
   }
@@ -289,14 +289,14 @@ TEST(EmbeddedSurface, HasTheDistancesAndWiresOfItsParts) {
   const EmbeddedField field = embedded.field(7);
   EXPECT_EQ(field.on(), embedded);
   EXPECT_EQ(field.distances().distances(), expected.distances());
-  const Wire wire = field.wire(333), traced = trace_wire(*surface, embedding, expected, 333);
+  const Wire wire = field.trace(333).value(), traced = trace_wire(*surface, embedding, expected, 333).value();
   EXPECT_EQ(wire.points, traced.points);
   EXPECT_EQ(wire.length, traced.length);
   const SurfacePoint inside{500, {0.2, 0.3, 0.5}};
   const SurfacePoint located = *EmbeddedPoints(surface, embedded.shared_embedding()).find(inside);
   EXPECT_EQ(embedded.locate(inside), located);
   EXPECT_EQ(field.distance(inside), expected.distance(located));
-  EXPECT_EQ(field.wire(inside).points, trace_wire(*surface, embedding, expected, located).points);
+  EXPECT_EQ(field.trace(inside)->points, trace_wire(*surface, embedding, expected, located)->points);
   const EmbeddedField nearest = embedded.field(std::array{inside, SurfacePoint(7)});
   EXPECT_LE(nearest.distances().distances()[333], field.distances().distances()[333]);
 }
@@ -383,7 +383,7 @@ TEST(EmbeddedSurface, RefusesWhatIsNotPartOfIt) {
   EXPECT_THROW(embedded.field(25), InvalidInput);
   EXPECT_THROW(embedded.field(std::vector<SurfacePoint>()), InvalidInput);
   EXPECT_THROW(embedded.locate({99, {1, 0, 0}}), InvalidInput);
-  EXPECT_THROW(embedded.field(0).wire(25), InvalidInput);
+  EXPECT_THROW(embedded.field(0).trace(25), InvalidInput);
   EXPECT_THROW(EmbeddedSurface(context, MetricSpec::concave({})), InvalidInput);
   EXPECT_THROW(EmbeddedSurface(context, std::shared_ptr<const Metric>()), InvalidInput);
   const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::euclidean()));
@@ -416,7 +416,7 @@ TEST(EmbeddedSurface, OutlivesItsContext) {
     const SurfaceContext context(bumpy_torus());
     field = EmbeddedSurface(context, MetricSpec::euclidean()).field(0);
   }
-  EXPECT_EQ(field->wire(100).to, 100);
+  EXPECT_EQ(field->trace(100)->to, 100);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(EdgeTurn, IsTakenInSpaceAtABowTieAndAlongLooseEdges) {
   EXPECT_NEAR(turn(surface, 2, 0, 3), 1.0, kTurnRounding);
   EXPECT_NEAR(turn(surface, 1, 0, 5), 1.0, kTurnRounding);
   EXPECT_NEAR(turn(surface, 0, 5, 6), 1.0, kTurnRounding);
-  EXPECT_EQ(edge_wires(plain_graph(surface), {2, -1}).trace({5, 6}).vertices, Chain({2, 0, 5, 6}));
+  EXPECT_EQ(edge_wires(plain_graph(surface), {2, -1}).trace({5, 6})->vertices, Chain({2, 0, 5, 6}));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::vector<std::int32_t> wire(const Surface& surface, const std::vector<Scribbl
                                std::int32_t to, std::optional<MetricKind> kind = std::nullopt) {
   const Metric plain = euclidean_metric(surface, principal_curvatures(surface));
   const Metric metric = apply_scribbles(surface, plain, scribbles, kind);
-  return edge_wires(make_edge_graph(surface, metric, nullptr, scribbles, kind), {from}).trace({to}).vertices;
+  return edge_wires(make_edge_graph(surface, metric, nullptr, scribbles, kind), {from}).trace({to})->vertices;
 }
 
 std::vector<std::int32_t> wire_between_ends(const Surface& surface, const Scribble& scribble) {
@@ -122,7 +122,7 @@ TEST(StrokesAlongEdges, ThatCloseAreFollowedAllTheWayRound) {
   const auto graph = make_edge_graph(surface, metric, nullptr, std::vector{scribble});
   const EdgeWires wires = edge_wires(graph, {scribble.vertices[0]});
   for (const std::size_t i : {50u, 99u, 150u}) {
-    EXPECT_LT(off(surface, wires.trace({scribble.vertices[i]}).vertices, points), kBesideTheLine) << i;
+    EXPECT_LT(off(surface, wires.trace({scribble.vertices[i]})->vertices, points), kBesideTheLine) << i;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(StrokesAlongEdges, AreTakenBackByOnesThatRepelLater) {
 TEST(StrokesAlongEdges, LeadOnlyTheMetricThatTheyAreMeantFor) {
   const Surface surface = shapes::quad_grid(kSquares).surface();
   Scribble scribble = stroke(arc(0.3, std::numbers::pi, 0));
-  scribble.meant_for = MetricKind::kMin;
+  scribble.acts_on = MetricKind::kMin;
   const std::int32_t from = vertex_at(0.2, 0.5), to = vertex_at(0.8, 0.5);
   EXPECT_LT(off(surface, wire(surface, {scribble}, from, to, MetricKind::kMin), scribble.points), kBesideTheLine);
   EXPECT_EQ(wire(surface, {scribble}, from, to, MetricKind::kMax), wire(surface, {}, from, to));

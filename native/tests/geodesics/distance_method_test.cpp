@@ -100,12 +100,12 @@ TEST(DistanceMethod, AnotherOneMakesFieldsAndWires) {
   for (std::int32_t v = 0; index(v) < embedded.surface().vertex_count(); ++v) {
     EXPECT_GE(field.distance(v), exact.distance(v) * (1 - 1e-12));
   }
-  const Wire wire = field.wire(500);
+  const Wire wire = field.trace(500).value();
   EXPECT_EQ(wire.from, 7);
   EXPECT_EQ(wire.to, 500);
   EXPECT_NEAR(wire.length, field.distance(500), 1e-12);
   EXPECT_NEAR(wire.euclidean_length, wire.length, 1e-9);
-  EXPECT_GT(wire.length, exact.wire(500).length * 1.01);
+  EXPECT_GT(wire.length, exact.trace(500)->length * 1.01);
 }
 
 TEST(DistanceMethod, AnotherOneSuggestsClosedWiresThatBend) {

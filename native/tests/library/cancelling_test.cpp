@@ -188,7 +188,7 @@ TEST_F(Cancelling, Snapping) {
   const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
   const ExactGeodesics geodesics(embedding.mesh);
   const auto target = static_cast<std::int32_t>(vertices / 2);
-  const Wire wire = trace_wire(surface, embedding, geodesics.solve(0), target);
+  const Wire wire = trace_wire(surface, embedding, geodesics.solve(0), target).value();
   const SnapGraph graph(surface);
   // Each edge of the chain was taken from the queue, and an integral is several steps long.
   const std::size_t chain = snap_to_edges(surface, graph, wire).size();

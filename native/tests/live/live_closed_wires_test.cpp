@@ -44,7 +44,7 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
     double least = std::numeric_limits<double>::infinity();
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
       const auto graph = make_edge_graph(*surface, metric_of(*surface, follow, kEdgeStrength));
-      least = std::min(least, shortest_cycle(*graph, edge).length);
+      least = std::min(least, shortest_cycle(*graph, edge)->length);
     }
     EXPECT_EQ(loop.length, least);
     EXPECT_GE(loop.vertices.size(), 3u);

@@ -212,7 +212,7 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
   for (const Vector& p : scribble.points) {
     scribble.vertices.push_back(static_cast<std::int32_t>(std::lround(p.y() * 40) * 41 + std::lround(p.x() * 40)));
   }
-  scribble.meant_for = MetricKind::kMin;
+  scribble.acts_on = MetricKind::kMin;
   const Pick from{scribble.vertices.front()}, to{scribble.vertices.back()};
   for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     LiveWire live(surface, options);
@@ -235,11 +235,11 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
         apply_scribbles(*surface, metric_of(*surface, Follow::kMin, strength), std::vector{scribble}, MetricKind::kMin);
     if (options.along == Along::kEdges) {
       const auto graph = make_edge_graph(*surface, metric, nullptr, std::vector{scribble}, MetricKind::kMin);
-      EXPECT_EQ(after.wires[min].vertices, edge_wires(graph, from).trace(to).vertices);
+      EXPECT_EQ(after.wires[min].vertices, edge_wires(graph, from).trace(to)->vertices);
     } else {
       const Embedding embedding = embed(*surface, metric);
       const DistanceField field = ExactGeodesics(embedding.mesh).solve(from.a);
-      EXPECT_EQ(after.wires[min].points, trace_wire(*surface, embedding, field, to.a).points);
+      EXPECT_EQ(after.wires[min].points, trace_wire(*surface, embedding, field, to.a)->points);
       const bool bends = std::ranges::any_of(after.wires[min].points, [](const Vector& p) { return p.y() > 0.35; });
       EXPECT_TRUE(bends) << "as the stroke does";
     }
@@ -264,7 +264,7 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
 TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   constexpr std::size_t kConcaveOne = 0, kMinOne = 1, kMaxOne = 2;
   Scribble one, two;
-  one.meant_for = two.meant_for = MetricKind::kMin;
+  one.acts_on = two.acts_on = MetricKind::kMin;
   two.rings = 3;
   const LiveMetrics metrics = live_metrics(MetricFamily::kFeature, {.parameter = 0.1});
   const auto after = [&](const MetricSet& before, const std::vector<Scribble>& scribbles) {
@@ -278,7 +278,7 @@ TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   EXPECT_FALSE(with_both->shares(*with_one, kMinOne));
   EXPECT_FALSE(after(*with_both, {two, one})->shares(*with_both, kMinOne)) << "their order counts";
   Scribble three;
-  three.meant_for = MetricKind::kMax;
+  three.acts_on = MetricKind::kMax;
   const auto with_three = after(*with_both, {three, one, two});
   EXPECT_TRUE(with_three->shares(*with_both, kMinOne));
   EXPECT_FALSE(with_three->shares(*with_both, kMaxOne));
@@ -325,7 +325,7 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     }
     scribble.rings = 1 + static_cast<int>(random() % 6);
     scribble.attracts = random() % 4 != 0;
-    if (random() % 2 == 0) scribble.meant_for = static_cast<MetricKind>(random() % 3);
+    if (random() % 2 == 0) scribble.acts_on = static_cast<MetricKind>(random() % 3);
     return scribble;
   };
   LiveWire live(surface, kPlain);

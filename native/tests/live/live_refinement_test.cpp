@@ -69,7 +69,7 @@ TEST(LiveRefinement, WiresAreFinalOnceTheyAreRefinedAndNotBefore) {
     const LiveWires late = final_wires(live, target);
     EXPECT_TRUE(late.final() && late.settled);
     const std::optional<Wire> expected =
-        refined_wire(surface, metric, trace_wire(*surface, embedding, field, target), SurfacePoint(7),
+        refined_wire(surface, metric, trace_wire(*surface, embedding, field, target).value(), SurfacePoint(7),
                      SurfacePoint(target), {.max_error = 0.01, .mean_edge_length = embedding.mean_edge_length}, {});
     ASSERT_TRUE(expected);
     const auto is_refined = [&](const LiveCandidate& wire) { return wire.points == expected->points; };

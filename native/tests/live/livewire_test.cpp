@@ -45,7 +45,7 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLe
       const LiveWires wires = live.wires({target});
       ASSERT_EQ(wires.wires.size(), 3U);
       const LiveCandidate& got = wires.wires[i];
-      const Wire expected = trace_wire(*surface, embedding, field, target);
+      const Wire expected = trace_wire(*surface, embedding, field, target).value();
       EXPECT_EQ(got.metric.kind(), kKinds[i]);
       EXPECT_TRUE(got.final);
       EXPECT_EQ(got.points, expected.points);
@@ -141,7 +141,7 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
                              SurfacePoint{517, {0.0, 0.4, 0.6}}, SurfacePoint{3, {0.0, 1.0, 0.0}}, SurfacePoint(100)};
     for (const SurfacePoint& target : targets) {
       const LiveCandidate got = live.wires_to(target).wires[i];
-      const Wire expected = trace_wire(*surface, embedding, field, *points.find(target));
+      const Wire expected = trace_wire(*surface, embedding, field, *points.find(target)).value();
       EXPECT_TRUE(got.final);
       EXPECT_EQ(got.points, expected.points);
       EXPECT_EQ(got.faces, expected.faces);
@@ -240,7 +240,7 @@ TEST(LiveWire, AlongEdgesGivesTheChainsOfBothMetrics) {
             edge_wires(make_edge_graph(*surface, metric_of(*surface, follow, kEdgeStrength)), seed, 3.0, forward);
         for (const Pick target : {Pick{100}, Pick{300, 301}, Pick{8}}) {
           const LiveCandidate got = live.wires(target).wires[follow == Follow::kMin ? 0 : 1];
-          const EdgeChain expected = chains.trace(target);
+          const EdgeChain expected = chains.trace(target).value();
           EXPECT_EQ(got.vertices, expected.vertices);
           EXPECT_EQ(got.length, expected.length);
           EXPECT_TRUE(got.faces.empty());
@@ -524,7 +524,7 @@ TEST(LiveWire, TracesWiresOfALargeSurfaceInTheBackground) {
   const LiveWires wires = live.wires(target);
   ASSERT_TRUE(wires.final());
   const Embedding embedding = embed(*surface, euclidean_metric(*surface, principal_curvatures(*surface)));
-  const Wire expected = trace_wire(*surface, embedding, ExactGeodesics(embedding.mesh).solve(7), target.a);
+  const Wire expected = trace_wire(*surface, embedding, ExactGeodesics(embedding.mesh).solve(7), target.a).value();
   EXPECT_EQ(wires.wires[0].points, expected.points);
   EXPECT_EQ(wires.wires[0].vertices, snap_to_edges(*surface, SnapGraph(*surface), expected));
   live.seed({9});

@@ -57,7 +57,7 @@ std::vector<Vector> arc(const Vector& center, double radius, double from, double
 
 Wire wire_in(const Surface& surface, const Metric& metric, std::int32_t from, std::int32_t to) {
   const Embedding embedding = embed(surface, metric);
-  return trace_wire(surface, embedding, ExactGeodesics(embedding.mesh).solve(from), to);
+  return trace_wire(surface, embedding, ExactGeodesics(embedding.mesh).solve(from), to).value();
 }
 
 // How far a wire leaves a curve, given by the distance to it.
@@ -383,13 +383,13 @@ TEST(Scribble, ActsOnTheMetricsItIsMeantFor) {
   const Surface surface = shapes::grid(20).surface();
   const Metric flat = flat_metric(surface);
   Scribble scribble = stroke_on_plane(surface, line(Vector(0.2, 0.51, 0), Vector(0.8, 0.51, 0), 40));
-  scribble.meant_for = MetricKind::kMin;
+  scribble.acts_on = MetricKind::kMin;
   const Metric changed = apply_scribbles(surface, flat, {{scribble}});
   EXPECT_NE(changed.tensors, flat.tensors);
   EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, MetricKind::kMin).tensors, changed.tensors);
   EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, MetricKind::kMax).tensors, flat.tensors);
   EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, MetricKind::kConcave).tensors, flat.tensors);
-  scribble.meant_for = std::nullopt;
+  scribble.acts_on = std::nullopt;
   for (const MetricKind kind : {MetricKind::kMin, MetricKind::kMax, MetricKind::kConcave}) {
     EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, kind).tensors, changed.tensors);
   }

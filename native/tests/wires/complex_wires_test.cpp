@@ -109,7 +109,7 @@ TEST(ComplexWires, AWireCrossesTheSpineOfABookStraight) {
   const Solved solved(mesh);
   const double scale = solved.surface.scale();
   const std::int32_t from = vertex_at(mesh, on_page(0, 0.5, 0)), to = vertex_at(mesh, on_page(2, 0.75, 1));
-  const Wire wire = trace_wire(solved.surface, solved.embedding, solved.solver.solve(from), to);
+  const Wire wire = trace_wire(solved.surface, solved.embedding, solved.solver.solve(from), to).value();
   EXPECT_NEAR(wire.length, scale * std::hypot(1.25, 1.0), 1e-12);
   EXPECT_NEAR(wire.euclidean_length, wire.length, 1e-12);
   // It crosses the spine once, at the height of a straight line.

@@ -105,7 +105,7 @@ TEST(EmbeddedPoints, WiresEndWhereOneClicks) {
   const DistanceField field = geodesics.solve(std::array{*points.find(clicks[0])});
   for (std::size_t i = 1; i < clicks.size(); i += 13) {
     const SurfacePoint to = points.find(clicks[i]).value();
-    const Wire wire = trace_wire(on.surface, on.embedding, field, to);
+    const Wire wire = trace_wire(on.surface, on.embedding, field, to).value();
     EXPECT_EQ(wire.from, -1);
     EXPECT_EQ(wire.to, -1);
     EXPECT_NEAR(wire.length, field.distance(to), 1e-12);

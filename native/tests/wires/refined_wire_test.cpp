@@ -70,7 +70,8 @@ struct First {
       : surface(shared(on)), metric(by), from(begin), to(end), embedding(embed(on, by)) {
     const EmbeddedPoints points(surface, std::make_shared<const Embedding>(embedding));
     wire = trace_wire(on, embedding, ExactGeodesics(embedding.mesh).solve(std::array{*points.find(from)}),
-                      *points.find(to));
+                      *points.find(to))
+               .value();
   }
   std::optional<Wire> refined(double max_error, const Task& task = {}) const {
     return refined_wire(surface, metric, wire, from, to,

@@ -175,26 +175,26 @@ TEST(TraceWire, IsTheSeedAloneOrNothingWhereThereIsNoPath) {
   }();
   const Embedding embedding = embed_euclidean(two);
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(4);
-  const Wire here = trace_wire(two, embedding, field, 4);
+  const Wire here = trace_wire(two, embedding, field, 4).value();
   EXPECT_EQ(here.points, (std::vector<Vector>{two.points()[4]}));
   EXPECT_EQ(here.length, 0);
   EXPECT_EQ(here.euclidean_length, 0);
   EXPECT_EQ(snap_to_edges(two, SnapGraph(two), here), (std::vector<std::int32_t>{4}));
-  const Wire nowhere = trace_wire(two, embedding, field, 10);
+  const Wire nowhere = trace_wire(two, embedding, field, 10).value();
   EXPECT_TRUE(nowhere.points.empty() && nowhere.faces.empty());
   EXPECT_EQ(nowhere.from, 4);
   EXPECT_EQ(nowhere.to, 10);
   EXPECT_EQ(nowhere.length, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(snap_to_edges(two, SnapGraph(two), nowhere).empty());
-  EXPECT_THROW(trace_wire(two, embedding, field, 18), InvalidInput);
-  EXPECT_THROW(trace_wire(two, embedding, field, -1), InvalidInput);
+  EXPECT_THROW(trace_wire(two, embedding, field, 18).value(), InvalidInput);
+  EXPECT_THROW(trace_wire(two, embedding, field, -1).value(), InvalidInput);
 }
 
 TEST(TraceWire, MayStartAtANewVertexOfTheEmbedding) {
   const Bisected on;
   const DistanceField field = ExactGeodesics(on.embedding.mesh).solve(3);
   for (const std::int32_t to : {0, 1, 2}) {
-    const Wire wire = trace_wire(on.surface, on.embedding, field, to);
+    const Wire wire = trace_wire(on.surface, on.embedding, field, to).value();
     EXPECT_EQ(wire.points, (std::vector<Vector>{{1, 0, 0}, on.surface.points()[index(to)]}));
     EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{-1, to}));
     EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0}));
@@ -209,11 +209,11 @@ TEST(TraceWire, RefusesWhatDoesNotBelongTogether) {
   const DistanceField field = ExactGeodesics(on.embedding.mesh).solve(0);
   const Surface other = shapes::grid(3).surface();
   const Embedding of_other = embed_euclidean(other);
-  EXPECT_THROW(trace_wire(other, on.embedding, field, 1), InvalidInput) << "a surface of more vertices";
-  EXPECT_THROW(trace_wire(Surface({{0, 1, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}), on.embedding, field, 1),
+  EXPECT_THROW(trace_wire(other, on.embedding, field, 1).value(), InvalidInput) << "a surface of more vertices";
+  EXPECT_THROW(trace_wire(Surface({{0, 1, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}), on.embedding, field, 1).value(),
                InvalidInput)
       << "of vertices elsewhere";
-  EXPECT_THROW(trace_wire(on.surface, on.embedding, ExactGeodesics(of_other.mesh).solve(0), 1), InvalidInput);
+  EXPECT_THROW(trace_wire(on.surface, on.embedding, ExactGeodesics(of_other.mesh).solve(0), 1).value(), InvalidInput);
   const auto map = [&](const IntrinsicPath& path) { return map_wire(on.surface, on.embedding, path); };
   EXPECT_THROW(map({.points = {{.vertex = 0}, {.vertex = 4}}, .faces = {0}}), InvalidInput) << "a vertex too far";
   EXPECT_THROW(map({.points = {{.vertex = 0}, {.half_edge = 6, .t = 0.5}}, .faces = {0}}), InvalidInput) << "an edge";
@@ -226,7 +226,7 @@ TEST(TraceWire, OnAPlaneIsTheStraightLine) {
   const Embedding embedding = embed_euclidean(surface);
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
   for (std::int32_t v = 1; index(v) < surface.vertex_count(); ++v) {
-    const Wire wire = trace_wire(surface, embedding, field, v);
+    const Wire wire = trace_wire(surface, embedding, field, v).value();
     const double expected = surface.points()[index(v)].norm();
     EXPECT_NEAR(wire.length, expected, 1e-9 * expected);
     EXPECT_NEAR(wire.euclidean_length, expected, 1e-9 * expected);
@@ -259,7 +259,7 @@ TEST(TraceWire, LiesOnTheFacesItNamesAndIsAsLongAsTheDistance) {
     faces_added += embedding.faces_added;
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(3);
     for (std::int32_t v = 0; index(v) < surface.vertex_count(); ++v) {
-      const Wire wire = trace_wire(surface, embedding, field, v);
+      const Wire wire = trace_wire(surface, embedding, field, v).value();
       ASSERT_FALSE(wire.points.empty()) << c.name << " " << v;
       ASSERT_EQ(wire.faces.size() + 1, wire.points.size());
       ASSERT_EQ(wire.vertices.size(), wire.points.size());
@@ -303,7 +303,8 @@ TEST(SnapToEdges, AWireAlongEdgesSnapsToThem) {
   const Surface surface = shapes::grid(8).surface();
   const Embedding embedding = embed_euclidean(surface);
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(4 * 9);  // half way up the left side
-  const auto path = snap_to_edges(surface, SnapGraph(surface), trace_wire(surface, embedding, field, 4 * 9 + 8));
+  const auto path =
+      snap_to_edges(surface, SnapGraph(surface), trace_wire(surface, embedding, field, 4 * 9 + 8).value());
   std::vector<std::int32_t> row;
   for (std::int32_t i = 0; i <= 8; ++i) row.push_back(4 * 9 + i);
   EXPECT_EQ(path, row);
@@ -316,7 +317,7 @@ TEST(SnapToEdges, GivesAChainInTheBandOfTheWireThatIsCloseToItAndTurnsLittle) {
     const Embedding embedding = embed_features(surface, c.follow, c.max_anisotropy);
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
     for (std::int32_t v = 5; index(v) < surface.vertex_count(); v += 97) {
-      const Wire wire = trace_wire(surface, embedding, field, v);
+      const Wire wire = trace_wire(surface, embedding, field, v).value();
       const auto path = snap_to_edges(surface, graph, wire);
       expect_chain(surface, path, 0, v);
       const std::set<Edge> band = band_of(surface, wire);
@@ -382,7 +383,7 @@ TEST(SnapToEdges, NeverTakesADiagonalOfAPolygon) {
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
   const SnapGraph graph(surface);
   for (std::int32_t v = 1; index(v) < surface.vertex_count(); ++v) {
-    const auto path = snap_to_edges(surface, graph, trace_wire(surface, embedding, field, v));
+    const auto path = snap_to_edges(surface, graph, trace_wire(surface, embedding, field, v).value());
     expect_chain(surface, path, 0, v);
     EXPECT_GE(path.size(), index(v % (n + 1) + v / (n + 1) + 1)) << "steps along two directions only";
   }
@@ -431,7 +432,7 @@ TEST(SnapToEdges, StaysOnTheSheetOfTheWire) {
   const Embedding embedding = embed_euclidean(surface);
   const std::int32_t columns = 2 * n + 1, from = columns, to = 4 * columns + n - 2;
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(from);
-  const auto path = snap_to_edges(surface, SnapGraph(surface), trace_wire(surface, embedding, field, to));
+  const auto path = snap_to_edges(surface, SnapGraph(surface), trace_wire(surface, embedding, field, to).value());
   expect_chain(surface, path, from, to);
   for (const std::int32_t v : path) EXPECT_LE(v % columns, n) << "on the other sheet";
 }
@@ -455,7 +456,7 @@ TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
 TEST(SnapToEdges, RefusesAGraphOfAnotherSurface) {
   const Surface surface = shapes::grid(4).surface(), other = shapes::grid(5).surface();
   const Embedding embedding = embed_euclidean(surface);
-  const Wire wire = trace_wire(surface, embedding, ExactGeodesics(embedding.mesh).solve(0), 24);
+  const Wire wire = trace_wire(surface, embedding, ExactGeodesics(embedding.mesh).solve(0), 24).value();
   EXPECT_THROW(snap_to_edges(surface, SnapGraph(other), wire), InvalidInput);
 }
 

@@ -18,6 +18,7 @@
 #include "seamwire/files/mesh_file.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
+#include "seamwire/geodesics/distance_method.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/crest_lines.hpp"

@@ -9,6 +9,8 @@
 namespace seamwire {
 
 /// Lets the caller of long work watch it and stop it. A default Task runs silently to its end.
+///
+/// Every function that takes a Task reports its progress to it, and throws Cancelled once the task is cancelled.
 struct Task {
   std::stop_token stop;  ///< cancels from any thread
   /// Receives the fraction done, in [0, 1], from time to time. Cancels the work if it returns false. May be empty.
@@ -20,7 +22,6 @@ struct Task {
   /// Report progress, and stop if the caller wants no more.
   ///
   /// \param fraction the fraction done, in [0, 1]
-  /// \throws Cancelled if the task is cancelled
   void check(double fraction) const {
     if (stop.stop_requested() || (progress && !progress(fraction))) throw Cancelled();
   }

@@ -139,7 +139,7 @@ double EmbeddedField::distance(const SurfacePoint& point, const Task& task) cons
   return distances_.distance(on_.locate(point), task);
 }
 
-Wire EmbeddedField::wire(const SurfacePoint& point, const Task& task) const {
+std::optional<Wire> EmbeddedField::trace(const SurfacePoint& point, const Task& task) const {
   return trace_wire(on_.surface(), on_.embedding(), distances_, on_.locate(point), task);
 }
 

@@ -149,7 +149,7 @@ std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const M
   auto graph = std::make_shared<EdgeGraph>(surface, metric, std::move(adjacency), task);
   for (const Scribble& scribble : scribbles) {
     task.check(1.0);
-    if (!kind || scribble.acts_on(*kind)) graph->follow(surface, metric, scribble);
+    if (!kind || scribble.changes(*kind)) graph->follow(surface, metric, scribble);
   }
   return graph;
 }

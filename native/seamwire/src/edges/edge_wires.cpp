@@ -86,11 +86,11 @@ bool EdgeWires::is_final(const Pick& target) const {
   return best >= 0 && run_->search.state(best).cost < below;
 }
 
-EdgeChain EdgeWires::trace(const Pick& target) const {
+std::optional<EdgeChain> EdgeWires::trace(const Pick& target) const {
   check_pick(*run_->graph, target, "target");
-  if (!target.is_edge() && target == run_->seed) return {{target.a}, 0.0};
+  if (!target.is_edge() && target == run_->seed) return EdgeChain{{target.a}, 0.0};
   const std::int32_t best = run_->best(target);
-  if (best < 0) return {};
+  if (best < 0) return std::nullopt;
   return chain_to(*run_->graph, run_->search, best);
 }
 

@@ -53,7 +53,7 @@ std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, doubl
 
 }  // namespace
 
-EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning, const Task& task) {
+std::optional<EdgeChain> shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning, const Task& task) {
   graph.checked(edge, "cycle");
   check_turning(turning);
   task.check(0.0);
@@ -69,7 +69,7 @@ EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turnin
   search.start(ab);
   const std::int32_t last =
       search.run([&](std::int32_t v) { return way_back[v]; }, [&](std::int32_t e) { return graph.head(e) == a; }, task);
-  if (last < 0) return {};
+  if (last < 0) return std::nullopt;
   EdgeChain cycle = chain_to(graph, search, last);
   cycle.vertices.pop_back();  // a, once more
   return cycle;

@@ -23,11 +23,11 @@ LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireE
   return snapped_candidate(prepared, std::move(wire), task);
 }
 
-Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task) {
-  if (!solution.field) return {};
+std::optional<Wire> wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task) {
+  if (!solution.field) return std::nullopt;
   const EmbeddedSurface& on = *solution.prepared->embedded;
   const std::optional<SurfacePoint> to = on.points().find(point_of(target), "target");
-  return to ? trace_wire(on.surface(), on.embedding(), *solution.field, *to, task) : Wire{};
+  return to ? trace_wire(on.surface(), on.embedding(), *solution.field, *to, task) : std::nullopt;
 }
 
 LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target, const Task& task) {
@@ -35,13 +35,14 @@ LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target, 
   LiveCandidate candidate;
   candidate.metric = prepared.spec;
   if (solution.field) {
-    Wire wire = wire_of(solution, target, task);
-    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), solution.seed, target, task);
+    std::optional<Wire> wire = wire_of(solution, target, task);
+    return wire ? candidate_between(prepared, std::move(*wire), solution.seed, target, task) : candidate;
   }
   if (!solution.wires) return candidate;
-  EdgeChain chain = solution.wires->trace(std::get<Pick>(target));
-  candidate.length = chain.length;
-  candidate.vertices = std::move(chain.vertices);
+  std::optional<EdgeChain> chain = solution.wires->trace(std::get<Pick>(target));
+  if (!chain) return candidate;
+  candidate.length = chain->length;
+  candidate.vertices = std::move(chain->vertices);
   candidate.points.reserve(candidate.vertices.size());
   for (const std::int32_t v : candidate.vertices) candidate.points.push_back(prepared.surface->points()[v]);
   return candidate;

@@ -54,7 +54,7 @@ LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireE
                                 const Task& task);
 
 /// The wire of a field to a target; without points if no wire leads there. Throws Cancelled.
-Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task);
+std::optional<Wire> wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task);
 
 /// The candidate of a solution to a target; without points if no wire leads there. It is not marked as final. Throws
 /// Cancelled.

@@ -264,7 +264,7 @@ EdgeChain LiveWorker::find_cycle(const Edge& edge, const std::stop_token& stop) 
   const std::shared_ptr<const Prepared> prepared = seeds_.newest()->metrics->peek(which_);
   if (!prepared || !has_edge(*surface, edge)) return {};  // error() says why, or LiveWire::loop() refuses the edge
   const double turning = settings_.loop_turning.value_or(loop_turning_for(surface->edges().size()));
-  return shortest_cycle(*prepared->graph, edge, turning, {.stop = stop, .progress = {}});
+  return shortest_cycle(*prepared->graph, edge, turning, {.stop = stop, .progress = {}}).value_or(EdgeChain{});
 }
 
 /// To be called after each change of what it tells.

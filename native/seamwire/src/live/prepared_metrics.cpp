@@ -12,7 +12,7 @@ namespace seamwire::detail {
 namespace {
 
 bool are_same_for(MetricKind kind, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
-  const auto acts = [kind](const Scribble& scribble) { return scribble.acts_on(kind); };
+  const auto acts = [kind](const Scribble& scribble) { return scribble.changes(kind); };
   auto other = those.begin();
   for (const Scribble& scribble : these) {
     if (!acts(scribble)) continue;
@@ -27,7 +27,7 @@ bool is_scribbled(const Surface& surface, const std::vector<Scribble>& scribbles
   bool acts = false;
   for (std::size_t i = 0; i < scribbles.size(); ++i) {
     check_scribble(surface, scribbles[i], i);
-    acts |= scribbles[i].acts_on(kind);
+    acts |= scribbles[i].changes(kind);
   }
   return acts;
 }

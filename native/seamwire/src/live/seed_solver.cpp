@@ -174,7 +174,7 @@ TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& targ
   const Prepared& prepared = *solution.prepared;
   const EmbeddedSurface& on = *prepared.embedded;
   const Task task{.stop = stop, .progress = {}};
-  Wire wire = wire_of(solution, target, task);
+  Wire wire = wire_of(solution, target, task).value_or(Wire{});
   answer.first_length = wire.length;
   const auto take = [&](Wire of) {
     answer.candidate = candidate_between(prepared, std::move(of), solution.seed, target, task);

@@ -434,7 +434,7 @@ Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<c
   for (std::size_t i = 0; i < scribbles.size(); ++i) check_scribble(surface, scribbles[i], i);
   for (const Scribble& scribble : scribbles) {
     task.check(1.0);
-    if (!kind || scribble.acts_on(*kind)) scribbler.apply(scribble);
+    if (!kind || scribble.changes(*kind)) scribbler.apply(scribble);
   }
   return result;
 }

@@ -116,10 +116,12 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
   return wire;
 }
 
-Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
-                const SurfacePoint& point, const Task& task) {
+std::optional<Wire> trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                               const SurfacePoint& point, const Task& task) {
   check_field(embedding, field);
-  Wire wire = map_wire(surface, embedding, field.trace(point, task));
+  const IntrinsicPath path = field.trace(point, task);
+  if (path.points.empty()) return std::nullopt;
+  Wire wire = map_wire(surface, embedding, path);
   if (const std::int32_t seed = field.seed(); seed >= 0) wire.from = index(seed) < surface.vertex_count() ? seed : -1;
   if (is_index(point.vertex, surface.vertex_count())) wire.to = point.vertex;
   return wire;

@@ -44,21 +44,17 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \param context the surface
   /// \param spec the metric
   /// \param options how far the subdivision goes
-  /// \param task progress and cancellation
   /// \throws InvalidInput if make_metric() or embed() rejects an argument
-  /// \throws Cancelled if the task is cancelled
   EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, const EmbedOptions& options = {},
-                  const Task& task = {});
+                  const Task& = {});
   /// Embed a surface in any metric.
   ///
   /// \param context the surface
   /// \param metric a metric of its vertices, not null
   /// \param options how far the subdivision goes
-  /// \param task progress and cancellation
   /// \throws InvalidInput if the metric is null, or embed() rejects an argument
-  /// \throws Cancelled if the task is cancelled
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, const EmbedOptions& options = {},
-                  const Task& task = {});
+                  const Task& = {});
   /// Wrap an existing embedding, with its options.
   ///
   /// \param context the surface
@@ -71,11 +67,9 @@ class SEAMWIRE_API EmbeddedSurface {
   /// Embed the surface in a changed metric with re_embed(), which is faster where the metrics agree.
   ///
   /// \param metric a metric of the surface's vertices, not null
-  /// \param task progress and cancellation
   /// \returns the surface in the changed metric
   /// \throws InvalidInput if the metric is null, or re_embed() rejects an argument
-  /// \throws Cancelled if the task is cancelled
-  EmbeddedSurface with_metric(std::shared_ptr<const Metric> metric, const Task& task = {}) const;
+  EmbeddedSurface with_metric(std::shared_ptr<const Metric> metric, const Task& = {}) const;
   /// Find the surface in the metric of a spec, if the context has it already and someone still holds it.
   ///
   /// \param context the surface
@@ -101,10 +95,8 @@ class SEAMWIRE_API EmbeddedSurface {
   const std::shared_ptr<const Embedding>& shared_embedding() const;
   /// Return the solver on the embedding.
   ///
-  /// \param task progress and cancellation
   /// \throws InvalidInput if the constructor of ExactGeodesics rejects the embedding
-  /// \throws Cancelled if the task is cancelled
-  const ExactGeodesics& geodesics(const Task& task = {}) const;
+  const ExactGeodesics& geodesics(const Task& = {}) const;
   /// Return the search for points of the surface on the embedding.
   const EmbeddedPoints& points() const;
   /// Find a point of the surface on the embedding.
@@ -119,33 +111,26 @@ class SEAMWIRE_API EmbeddedSurface {
   /// Compute exact distances from a point.
   ///
   /// \param seed a point of the surface
-  /// \param task progress and cancellation
   /// \returns the distances, and the wires
   /// \throws InvalidInput if locate() rejects the seed, or the constructor of ExactGeodesics rejects the embedding
-  /// \throws Cancelled if the task is cancelled
-  EmbeddedField field(const SurfacePoint& seed, const Task& task = {}) const;
+  EmbeddedField field(const SurfacePoint& seed, const Task& = {}) const;
   /// Compute exact distances from the nearest of several points.
   ///
   /// \param sources one or more points of the surface
   /// \param options when the solve may stop; its targets are points of the surface
-  /// \param task progress and cancellation
   /// \returns the distances, and the wires
   /// \throws InvalidInput if locate() rejects a source or a target, or ExactGeodesics::solve() rejects an argument
-  /// \throws Cancelled if the task is cancelled
-  EmbeddedField field(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
-                      const Task& task = {}) const;
+  EmbeddedField field(std::span<const SurfacePoint> sources, const SolveOptions& options = {}, const Task& = {}) const;
   /// Compute distances with any method.
   ///
   /// \param method a method that is prepared on the mesh of this embedding
   /// \param sources one or more points of the surface
   /// \param options when the solve may stop; its targets are points of the surface
-  /// \param task progress and cancellation
   /// \returns the distances, and the wires
   /// \throws InvalidInput if locate() rejects a source or a target, or DistanceMethod::solve() rejects an argument
   /// \throws InvalidInput if the method is prepared on another mesh, as far as sizes tell
-  /// \throws Cancelled if the task is cancelled
   EmbeddedField field(const DistanceMethod& method, std::span<const SurfacePoint> sources,
-                      const SolveOptions& options = {}, const Task& task = {}) const;
+                      const SolveOptions& options = {}, const Task& = {}) const;
   /// Return whether two embedded surfaces are copies of each other.
   friend bool operator==(const EmbeddedSurface&, const EmbeddedSurface&) = default;
 
@@ -173,35 +158,27 @@ class SEAMWIRE_API EmbeddedField {
   /// Compute the distance of any point of the surface.
   ///
   /// \param point a point of the surface
-  /// \param task progress and cancellation
   /// \returns the distance in the metric, infinite if no path leads there
   /// \throws InvalidInput if EmbeddedSurface::locate() rejects the point
-  /// \throws Cancelled if the task is cancelled
-  double distance(const SurfacePoint& point, const Task& task = {}) const;
+  double distance(const SurfacePoint& point, const Task& = {}) const;
   /// Trace the wire to any point. It is the shortest one if the distances are exact.
   ///
   /// \param point a point of the surface
-  /// \param task progress and cancellation
-  /// \returns the wire, without points if the point is unreachable
+  /// \returns the wire, or nullopt if the point is unreachable
   /// \throws InvalidInput if EmbeddedSurface::locate() rejects the point
-  /// \throws Cancelled if the task is cancelled
-  Wire wire(const SurfacePoint& point, const Task& task = {}) const;
+  std::optional<Wire> trace(const SurfacePoint& point, const Task& = {}) const;
   /// Find the closed wires through the seed, with seamwire::closed_wires().
   ///
   /// \param count the largest number of wires
-  /// \param task progress and cancellation
   /// \returns the closed wires, best first
   /// \throws InvalidInput if the field has several sources
-  /// \throws Cancelled if the task is cancelled
-  std::vector<ClosedWire> closed_wires(std::size_t count = 3, const Task& task = {}) const;
+  std::vector<ClosedWire> closed_wires(std::size_t count = 3, const Task& = {}) const;
   /// Prepare the bending of one of the closed wires.
   ///
   /// \param cut a wire of closed_wires()
-  /// \param task progress and cancellation
   /// \returns the object that bends it
   /// \throws InvalidInput if the constructor of BentWires rejects the cut, such as a cut of another embedded surface
-  /// \throws Cancelled if the task is cancelled
-  BentWires bend(const ClosedWire& cut, const Task& task = {}) const;
+  BentWires bend(const ClosedWire& cut, const Task& = {}) const;
 
  private:
   friend class EmbeddedSurface;

@@ -58,35 +58,18 @@ class SEAMWIRE_API SurfaceContext {
 
   /// Return the surface, and build it if necessary.
   ///
-  /// \param task progress and cancellation
   /// \throws InvalidInput if the constructor of Surface rejects its arguments
-  /// \throws Cancelled if the task is cancelled
-  std::shared_ptr<const Surface> surface(const Task& task = {}) const;
+  std::shared_ptr<const Surface> surface(const Task& = {}) const;
   /// Return the principal_curvatures() of the surface.
-  ///
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  std::shared_ptr<const Curvature> curvature(const Task& task = {}) const;
+  std::shared_ptr<const Curvature> curvature(const Task& = {}) const;
   /// Return Curvature::difference() of the surface, s of eq. 5.
-  ///
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  std::shared_ptr<const std::vector<double>> feature_strength(const Task& task = {}) const;
+  std::shared_ptr<const std::vector<double>> feature_strength(const Task& = {}) const;
   /// Return the smoothed curvatures (radius 0.01) that the concave metric uses.
-  ///
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  std::shared_ptr<const Curvature> smoothed_curvature(const Task& task = {}) const;
+  std::shared_ptr<const Curvature> smoothed_curvature(const Task& = {}) const;
   /// Return the EdgeAdjacency of the surface.
-  ///
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  std::shared_ptr<const EdgeAdjacency> edge_adjacency(const Task& task = {}) const;
+  std::shared_ptr<const EdgeAdjacency> edge_adjacency(const Task& = {}) const;
   /// Return the SnapGraph of the surface.
-  ///
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  std::shared_ptr<const SnapGraph> snap_graph(const Task& task = {}) const;
+  std::shared_ptr<const SnapGraph> snap_graph(const Task& = {}) const;
 
   /// Return the surface, or null if it is not built yet. Does not wait.
   ///
@@ -116,10 +99,8 @@ class SEAMWIRE_API SurfaceContext {
 ///
 /// \param context the surface
 /// \param spec the metric
-/// \param task progress and cancellation
 /// \returns the metric
 /// \throws InvalidInput if check_metric() rejects the spec, or the metric is too strong (kLargestEigenvalue)
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API Metric make_metric(const SurfaceContext& context, const MetricSpec& spec, const Task& task = {});
+SEAMWIRE_API Metric make_metric(const SurfaceContext& context, const MetricSpec& spec, const Task& = {});
 
 }  // namespace seamwire

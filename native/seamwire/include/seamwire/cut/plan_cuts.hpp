@@ -103,15 +103,12 @@ struct SEAMWIRE_API CutPlan {
 ///
 /// \param mesh the mesh
 /// \param curves the curves
-/// \param task progress and cancellation
 /// \returns the changes to the mesh
 /// \throws InvalidInput if sizes do not fit, an index is out of range, or a coordinate is not finite. The message names
 ///   the element.
 /// \throws InvalidInput if barycentric coordinates are below 0, or their sum is not 1
 /// \throws InvalidInput if polygons are not ascending, or the triangles of a polygon that a curve passes do not form a
 ///   polygon
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API CutPlan plan_cuts(const TriangulatedPolygons& mesh, std::span<const CutCurve> curves,
-                               const Task& task = {});
+SEAMWIRE_API CutPlan plan_cuts(const TriangulatedPolygons& mesh, std::span<const CutCurve> curves, const Task& = {});
 
 }  // namespace seamwire

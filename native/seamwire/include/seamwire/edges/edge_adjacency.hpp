@@ -26,9 +26,7 @@ class EdgeAdjacency;
 /// Make the edge adjacency of a surface.
 ///
 /// \param surface the surface
-/// \param task progress and cancellation
 /// \returns the adjacency, never null
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API std::shared_ptr<const EdgeAdjacency> make_edge_adjacency(const Surface& surface, const Task& task = {});
+SEAMWIRE_API std::shared_ptr<const EdgeAdjacency> make_edge_adjacency(const Surface& surface, const Task& = {});
 
 }  // namespace seamwire

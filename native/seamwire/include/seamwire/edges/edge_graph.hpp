@@ -45,15 +45,13 @@ class EdgeGraph;
 /// \param adjacency the adjacency of the surface, if it exists already
 /// \param scribbles the strokes that were applied to `metric`
 /// \param kind as in apply_scribbles()
-/// \param task progress and cancellation
 /// \returns the graph, never null
 /// \throws InvalidInput if the metric or the adjacency is of another surface, or apply_scribbles() rejects the metric
 ///   or a stroke
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                               std::shared_ptr<const EdgeAdjacency> adjacency = nullptr,
                                                               std::span<const Scribble> scribbles = {},
                                                               std::optional<MetricKind> kind = std::nullopt,
-                                                              const Task& task = {});
+                                                              const Task& = {});
 
 }  // namespace seamwire

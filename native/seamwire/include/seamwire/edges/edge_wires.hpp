@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "seamwire/api.hpp"
 #include "seamwire/edges/edge_graph.hpp"
@@ -39,10 +40,7 @@ class SEAMWIRE_API EdgeWires {
   /// Run the search, nearest targets first. Call it only once.
   ///
   /// After a cancellation, chains found until then are still available.
-  ///
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  void run(const Task& task = {});
+  void run(const Task& = {});
 
   /// Return whether trace() gives the cheapest chain already, or knows that there is no chain.
   ///
@@ -61,9 +59,9 @@ class SEAMWIRE_API EdgeWires {
   /// NP-hard.
   ///
   /// \param target a vertex or an edge of the surface
-  /// \returns the chain, without vertices if none is known
+  /// \returns the chain, or nullopt if none is known
   /// \throws InvalidInput if the target is not part of the surface
-  EdgeChain trace(const Pick& target) const;
+  std::optional<EdgeChain> trace(const Pick& target) const;
 
  private:
   struct Run;
@@ -76,11 +74,9 @@ class SEAMWIRE_API EdgeWires {
 /// \param seed a vertex or an edge of the surface
 /// \param turning q, the factor for turning (EdgeGraph): finite, 0 or more
 /// \param forward whether the seed edge has just been drawn from seed.a to seed.b
-/// \param task progress and cancellation
 /// \returns the finished search
 /// \throws InvalidInput if the constructor of EdgeWires rejects its arguments
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
-                                  bool forward = false, const Task& task = {});
+                                  bool forward = false, const Task& = {});
 
 }  // namespace seamwire

@@ -55,13 +55,11 @@ struct FittedChain {
 /// \param line the line
 /// \param begin a vertex where the chain begins instead, near the line's first point
 /// \param end a vertex where the chain ends instead, near the line's last point
-/// \param task progress and cancellation
 /// \returns the chain, without vertices if no edge fits
 /// \throws InvalidInput if points and faces differ in number, or a coordinate is not finite
 /// \throws InvalidInput if the adjacency is of another surface, or a face or a vertex is out of range
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
                                    std::optional<std::int32_t> begin = std::nullopt,
-                                   std::optional<std::int32_t> end = std::nullopt, const Task& task = {});
+                                   std::optional<std::int32_t> end = std::nullopt, const Task& = {});
 
 }  // namespace seamwire

@@ -47,12 +47,10 @@ struct SeamGapOptions {
 /// \param adjacency its adjacency
 /// \param seams the cut edges. Pairs that are not real edges are ignored.
 /// \param options what counts as a gap
-/// \param task progress and cancellation
 /// \returns the gaps, shortest first
 /// \throws InvalidInput if a vertex is out of range, or the adjacency is of another surface
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::vector<SeamGap> find_gaps(const Surface& surface, const EdgeAdjacency& adjacency,
                                             std::span<const Edge> seams, const SeamGapOptions& options = {},
-                                            const Task& task = {});
+                                            const Task& = {});
 
 }  // namespace seamwire

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "seamwire/api.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/surface/types.hpp"
@@ -17,11 +19,9 @@ namespace seamwire {
 /// \param graph the edges and their lengths
 /// \param edge two vertices in either order
 /// \param turning q, the factor for turning (EdgeGraph): finite, 0 or more
-/// \param task progress and cancellation
-/// \returns the chain, which does not repeat its first vertex. It is empty if there is no such chain.
+/// \returns the chain, which does not repeat its first vertex, or nullopt if there is no such chain
 /// \throws InvalidInput if there is no such edge, or `turning` is out of range
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning = 20.0,
-                                      const Task& task = {});
+SEAMWIRE_API std::optional<EdgeChain> shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning = 20.0,
+                                                     const Task& = {});
 
 }  // namespace seamwire

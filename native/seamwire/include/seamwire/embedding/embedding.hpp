@@ -129,14 +129,12 @@ struct Embedding {
 /// \param surface the surface
 /// \param metric a metric of its vertices
 /// \param options how far the subdivision goes
-/// \param task progress and cancellation
 /// \returns the embedding
 /// \throws InvalidInput if the metric and the surface differ in size, a tensor is invalid (Metric::tensors), or an
 ///   option is out of range
-/// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 4.1
 SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {},
-                             const Task& task = {});
+                             const Task& = {});
 
 /// Embed a surface in a changed metric, starting from its embedding in the former one.
 ///
@@ -160,12 +158,10 @@ SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const
 /// \param metric the changed metric
 /// \param old the embedding of the same surface in `former`, with the same options
 /// \param options the options of `old`
-/// \param task progress and cancellation
 /// \returns the embedding in the changed metric
 /// \throws InvalidInput if `old` is of another surface, as far as its size tells, or embed() rejects an argument
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric,
-                                const Embedding& old, const EmbedOptions& options = {}, const Task& task = {});
+                                const Embedding& old, const EmbedOptions& options = {}, const Task& = {});
 
 /// Find the faces that are invalid in a metric before any bisection, including faces without an area.
 ///

@@ -49,11 +49,9 @@ class SEAMWIRE_API CorridorPaths {
   /// After a cancellation, the object is still usable.
   ///
   /// \param target a point of the mesh
-  /// \param task progress and cancellation
   /// \returns a path like those of DistanceField::trace(). It has no points if the target is unreachable.
   /// \throws InvalidInput if DistanceField::distance() rejects the target
-  /// \throws Cancelled if the task is cancelled
-  IntrinsicPath path(const SurfacePoint& target, const Task& task = {});
+  IntrinsicPath path(const SurfacePoint& target, const Task& = {});
 
  private:
   struct Impl;

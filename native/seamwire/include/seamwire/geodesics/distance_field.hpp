@@ -49,12 +49,10 @@ class SEAMWIRE_API SolvedField {
   /// Compute the distance of any point, as DistanceField::distance() promises.
   ///
   /// \param point a point of the mesh, not yet checked
-  /// \param task progress and cancellation
   virtual double distance(const SurfacePoint& point, const Task& task) const = 0;
   /// Trace the path to any point, as DistanceField::trace() promises.
   ///
   /// \param point a point of the mesh, not yet checked
-  /// \param task progress and cancellation
   virtual IntrinsicPath trace(const SurfacePoint& point, const Task& task) const = 0;
 
  protected:
@@ -98,23 +96,19 @@ class SEAMWIRE_API DistanceField {
   /// ExactGeodesics computes it exactly, and does not interpolate it from the vertices.
   ///
   /// \param point a point of the mesh
-  /// \param task progress and cancellation
   /// \returns the distance, infinite if no path leads there or it is beyond radius()
   /// \throws InvalidInput if the vertex or the face is out of range
   /// \throws InvalidInput if barycentric coordinates are not finite, or below 0, or their sum is not 1
-  /// \throws Cancelled if the task is cancelled
-  double distance(const SurfacePoint& point, const Task& task = {}) const;
+  double distance(const SurfacePoint& point, const Task& = {}) const;
   /// Trace the path from the nearest source to any point.
   ///
   /// The path of ExactGeodesics is the shortest one, and its length is the distance, up to rounding. Tracing takes time
   /// about proportional to the number of triangles that the path crosses.
   ///
   /// \param point a point of the mesh
-  /// \param task progress and cancellation
   /// \returns the path, without points if the point is unreachable or beyond radius()
   /// \throws InvalidInput if distance() rejects the point
-  /// \throws Cancelled if the task is cancelled
-  IntrinsicPath trace(const SurfacePoint& point, const Task& task = {}) const;
+  IntrinsicPath trace(const SurfacePoint& point, const Task& = {}) const;
 
  protected:
   /// Return what the method has solved.

@@ -31,22 +31,17 @@ class SEAMWIRE_API DistanceMethod {
   /// Compute distances from a point.
   ///
   /// \param seed a point of the mesh
-  /// \param task progress and cancellation
   /// \returns the distances, and the paths
   /// \throws InvalidInput if DistanceField::distance() rejects the seed
-  /// \throws Cancelled if the task is cancelled
-  DistanceField solve(const SurfacePoint& seed, const Task& task = {}) const;
+  DistanceField solve(const SurfacePoint& seed, const Task& = {}) const;
   /// Compute distances from the nearest of several points.
   ///
   /// \param sources one or more points of the mesh
   /// \param options when the solve may stop
-  /// \param task progress and cancellation
   /// \returns the distances, and the paths
   /// \throws InvalidInput if there is no source, or DistanceField::distance() rejects a source or a target
   /// \throws InvalidInput if the largest distance is negative or not a number
-  /// \throws Cancelled if the task is cancelled
-  DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
-                      const Task& task = {}) const;
+  DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {}, const Task& = {}) const;
 
  protected:
   DistanceMethod() = default;

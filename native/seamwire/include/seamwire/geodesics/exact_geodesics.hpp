@@ -49,11 +49,9 @@ class SEAMWIRE_API ExactGeodesics final : public DistanceMethod {
   /// Prepare a mesh.
   ///
   /// \param mesh the mesh. Lengths are at most 1e76, and the longest one is at least 1e-76.
-  /// \param task progress and cancellation
   /// \throws InvalidInput if a vertex or a length is out of range, or a triangle's lengths leave it no area
   /// \throws InvalidInput if arrays have the wrong size, or twins or siblings do not match
-  /// \throws Cancelled if the task is cancelled
-  explicit ExactGeodesics(const IntrinsicMesh& mesh, const Task& task = {});
+  explicit ExactGeodesics(const IntrinsicMesh& mesh, const Task& = {});
   /// Prepare a mesh that mostly equals another one, in less time.
   ///
   /// The result is the same as that of the other constructor. Equal parts, including their numbers, are shared with
@@ -62,32 +60,25 @@ class SEAMWIRE_API ExactGeodesics final : public DistanceMethod {
   /// \param former the solver that was made from `former_mesh`
   /// \param former_mesh the mesh of `former`
   /// \param mesh the new mesh
-  /// \param task progress and cancellation
   /// \throws InvalidInput if the other constructor rejects the new mesh, or `former_mesh` differs in size from the mesh
   ///   of `former`
-  /// \throws Cancelled if the task is cancelled
   ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh& former_mesh, const IntrinsicMesh& mesh,
-                 const Task& task = {});
+                 const Task& = {});
   /// Compute exact distances from a point.
   ///
   /// \param seed a point of the mesh
-  /// \param task progress and cancellation
   /// \returns the distances, and the paths
   /// \throws InvalidInput if DistanceField::distance() rejects the seed
-  /// \throws Cancelled if the task is cancelled
-  ExactField solve(const SurfacePoint& seed, const Task& task = {}) const;
+  ExactField solve(const SurfacePoint& seed, const Task& = {}) const;
 
   /// Compute exact distances from the nearest of several points.
   ///
   /// \param sources one or more points of the mesh
   /// \param options when the solve may stop
-  /// \param task progress and cancellation
   /// \returns the distances, and the paths
   /// \throws InvalidInput if there is no source, or DistanceField::distance() rejects a source or a target
   /// \throws InvalidInput if the largest distance is negative or not a number
-  /// \throws Cancelled if the task is cancelled
-  ExactField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
-                   const Task& task = {}) const;
+  ExactField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {}, const Task& = {}) const;
 
  private:
   friend class CorridorPaths;

@@ -291,12 +291,10 @@ class SEAMWIRE_API LiveWire {
   /// \param line the line
   /// \param begin a vertex where the chain begins
   /// \param end a vertex where the chain ends
-  /// \param task progress and cancellation
   /// \returns the chain, without vertices until the edge adjacency is computed
   /// \throws InvalidInput if seamwire::fit_chain() rejects an argument, or wires run across the surface
-  /// \throws Cancelled if the task is cancelled
   FittedChain fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin = std::nullopt,
-                        std::optional<std::int32_t> end = std::nullopt, const Task& task = {}) const;
+                        std::optional<std::int32_t> end = std::nullopt, const Task& = {}) const;
   /// Return s of eq. 5 at each vertex, or null if it is not computed yet.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 

@@ -48,14 +48,12 @@ struct CrestLines {
 /// \param surface the surface
 /// \param curvature of principal_curvatures(), preferably smoothed
 /// \param options which lines are kept
-/// \param task progress and cancellation
 /// \returns the lines, the strongest first
 /// \throws InvalidInput if the curvatures differ from the surface in size, or an option is out of range
-/// \throws Cancelled if the task is cancelled
 /// \see Yoshizawa, Belyaev, Seidel 2005, "Fast and robust detection of crest lines on meshes"
 /// \see Rusinkiewicz 2004, Section 4, for the derivative
 /// \see Hildebrandt, Polthier, Wardetzky 2005, "Smooth feature lines on surface meshes", for the lines in triangles
 SEAMWIRE_API CrestLines crest_lines(const Surface& surface, const Curvature& curvature,
-                                    const CrestLineOptions& options = {}, const Task& task = {});
+                                    const CrestLineOptions& options = {}, const Task& = {});
 
 }  // namespace seamwire

@@ -39,11 +39,9 @@ SEAMWIRE_API std::vector<Vector> vertex_normals(const Surface& surface);
 /// Compute principal curvatures on vertex_normals().
 ///
 /// \param surface the surface
-/// \param task progress and cancellation
 /// \returns the curvatures at the caller's vertices
-/// \throws Cancelled if the task is cancelled
 /// \see Rusinkiewicz 2004, "Estimating Curvatures and Their Derivatives on Triangle Meshes"
-SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& task = {});
+SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& = {});
 
 /// Average curvatures over about a radius.
 ///
@@ -54,11 +52,9 @@ SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& 
 /// \param surface the surface
 /// \param curvature curvatures at its vertices
 /// \param radius finite, above 0, of the model scaled to the unit cube
-/// \param task progress and cancellation
 /// \returns the averaged curvatures
 /// \throws InvalidInput if the curvatures differ from the surface in size, or the radius is not positive and finite
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius,
-                                           const Task& task = {});
+                                           const Task& = {});
 
 }  // namespace seamwire

@@ -67,14 +67,12 @@ SEAMWIRE_API void check_strength(const Strength& strength, double smallest_param
 /// \param curvature curvatures at its vertices
 /// \param follow the direction that paths follow
 /// \param strength gamma or A
-/// \param task progress and cancellation
 /// \returns the metric
 /// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
 /// \throws InvalidInput if check_strength() rejects the strength, or the metric is too strong (kLargestEigenvalue)
-/// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 3, eq. 5
 SEAMWIRE_API Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow,
-                                   const Strength& strength, const Task& task = {});
+                                   const Strength& strength, const Task& = {});
 /// Make Campen's metric, with l1 = alpha and l2 = 1.
 ///
 /// The parameter is alpha. A maximum anisotropy A means alpha = A^2. The percentile has no effect.
@@ -83,14 +81,12 @@ SEAMWIRE_API Metric feature_metric(const Surface& surface, const Curvature& curv
 /// \param curvature curvatures at its vertices
 /// \param follow the direction that paths follow
 /// \param strength alpha or A
-/// \param task progress and cancellation
 /// \returns the metric
 /// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
 /// \throws InvalidInput if check_strength() rejects the strength, or the metric is too strong (kLargestEigenvalue)
-/// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 2.2, eq. 3; Campen et al.
 SEAMWIRE_API Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow,
-                                  const Strength& strength, const Task& task = {});
+                                  const Strength& strength, const Task& = {});
 /// Make the metric of Pottmann and Kovacs, with l1 = k1^2 + beta and l2 = k2^2 + beta.
 ///
 /// The parameter is beta. A beta below 1e-12 of the largest k1^2 counts as that value, so that the norm is nowhere
@@ -100,14 +96,12 @@ SEAMWIRE_API Metric campen_metric(const Surface& surface, const Curvature& curva
 /// \param curvature curvatures at its vertices
 /// \param follow the direction that paths follow
 /// \param strength beta or A
-/// \param task progress and cancellation
 /// \returns the metric
 /// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
 /// \throws InvalidInput if check_strength() rejects the strength, or the metric is too strong (kLargestEigenvalue)
-/// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 2.2, eq. 4; Pottmann et al.; Kovacs et al.
 SEAMWIRE_API Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
-                                           const Strength& strength, const Task& task = {});
+                                           const Strength& strength, const Task& = {});
 /// Make a metric that is short along concave creases and, less so, along ridges.
 ///
 ///     M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T
@@ -120,22 +114,18 @@ SEAMWIRE_API Metric pottmann_kovacs_metric(const Surface& surface, const Curvatu
 /// \param surface the surface
 /// \param curvature preferably of smoothed_curvatures() with a radius of 0.01
 /// \param strength t: finite, 0 or more; 0 gives the Euclidean metric, 1 is the usual strength
-/// \param task progress and cancellation
 /// \returns the metric
 /// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
 /// \throws InvalidInput if the strength is negative, not finite, or too strong (kLargestEigenvalue)
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength = 1.0,
-                                   const Task& task = {});
+                                   const Task& = {});
 /// Make the Euclidean metric: the identity on every tangent plane.
 ///
 /// \param surface the surface
 /// \param curvature curvatures at its vertices, of which only the normals are used
-/// \param task progress and cancellation
 /// \returns the metric
 /// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
+SEAMWIRE_API Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& = {});
 
 /// A tensor with its normal.
 struct TensorAt {

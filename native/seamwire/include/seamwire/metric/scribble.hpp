@@ -34,12 +34,12 @@ struct Scribble {
   std::optional<double> radius = std::nullopt;
   bool attracts = true;  ///< false: crossing the stroke becomes short, and following it long
   /// The kind of metrics that the stroke changes. nullopt: all metrics.
-  std::optional<MetricKind> meant_for = std::nullopt;
+  std::optional<MetricKind> acts_on = std::nullopt;
 
   /// Return whether the stroke changes metrics of a kind.
   ///
   /// \param kind the kind
-  bool acts_on(MetricKind kind) const { return !meant_for || *meant_for == kind; }
+  bool changes(MetricKind kind) const { return !acts_on || *acts_on == kind; }
   /// Compare member by member.
   friend bool operator==(const Scribble&, const Scribble&) = default;
 };
@@ -65,16 +65,14 @@ struct Scribble {
 /// \param metric a metric of its vertices
 /// \param scribbles the strokes. Without strokes, the result is exactly `metric`.
 /// \param kind the kind of the metric, which selects the strokes meant for it; nullopt applies all strokes
-/// \param task progress and cancellation
 /// \returns the changed metric
 /// \throws InvalidInput if a point is not finite, or its face or vertex is missing or out of range. The message names
 ///   stroke and point.
 /// \throws InvalidInput if a point is farther from its face or vertex than 1/20 of the model's longest side
 /// \throws InvalidInput if lists differ in length, or `eta`, `rings` or `radius` is out of range
 /// \throws InvalidInput if the metric differs from the surface in size, or a tensor is invalid (Metric::tensors)
-/// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 5
 SEAMWIRE_API Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
-                                    std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
+                                    std::optional<MetricKind> kind = std::nullopt, const Task& = {});
 
 }  // namespace seamwire

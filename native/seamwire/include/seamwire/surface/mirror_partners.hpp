@@ -19,11 +19,9 @@ namespace seamwire {
 /// \param points the vertices. Vertices with a coordinate that is not finite, or not below 1e100, are never found.
 /// \param places the places. Such places have no nearest vertex.
 /// \param reach for each place, how far away a vertex may be
-/// \param task progress and cancellation
 /// \returns the number of the nearest vertex, usually the smallest of several at the same distance, or -1
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::vector<std::int32_t> nearest_vertices(std::span<const Vector> points, std::span<const Vector> places,
-                                                        std::span<const double> reach, const Task& task = {});
+                                                        std::span<const double> reach, const Task& = {});
 
 /// How the mirror images of vertices are found.
 struct MirrorOptions {
@@ -45,11 +43,9 @@ struct MirrorOptions {
 ///
 /// \param points the vertices. Vertices without a place (nearest_vertices()) have no partners.
 /// \param options the plane, and the mesh
-/// \param task progress and cancellation
 /// \returns the partner of each vertex, or -1
 /// \throws InvalidInput if a vertex number is out of range
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::vector<std::int32_t> mirror_partners(std::span<const Vector> points, const MirrorOptions& options,
-                                                       const Task& task = {});
+                                                       const Task& = {});
 
 }  // namespace seamwire

@@ -30,22 +30,18 @@ class SEAMWIRE_API NearestPoints {
   ///
   /// \param points finite coordinates
   /// \param triangles vertex numbers in [0, points.size())
-  /// \param task progress and cancellation
   /// \throws InvalidInput if there is no triangle, a vertex is out of range, or a coordinate is not finite
-  /// \throws Cancelled if the task is cancelled
-  NearestPoints(std::vector<Vector> points, std::vector<Triangle> triangles, const Task& task = {});
+  NearestPoints(std::vector<Vector> points, std::vector<Triangle> triangles, const Task& = {});
 
   /// Find the nearest point for each place, on several threads.
   ///
   /// \param places finite coordinates
   /// \param normals a direction for each place. Triangles that face away from it do not count, unless all do. Triangles
   ///   without an area never face away. Empty: all triangles count.
-  /// \param task progress and cancellation
   /// \returns the nearest points, in the order of the places
   /// \throws InvalidInput if the numbers of normals and places differ, or a coordinate is not finite
-  /// \throws Cancelled if the task is cancelled
   std::vector<NearestPoint> find(std::span<const Vector> places, std::span<const Vector> normals = {},
-                                 const Task& task = {}) const;
+                                 const Task& = {}) const;
 
  private:
   struct Impl;

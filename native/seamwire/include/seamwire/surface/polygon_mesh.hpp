@@ -33,10 +33,8 @@ SEAMWIRE_API std::vector<Edge> polygon_edges(const PolygonMesh& mesh);
 /// Its edges are those of the polygons, without the diagonals of triangulate().
 ///
 /// \param mesh the mesh
-/// \param task receives progress, and can cancel
 /// \returns the surface, whose vertices have the mesh's numbers
 /// \throws InvalidInput if triangulate() or Surface rejects the mesh
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API Surface make_surface(const PolygonMesh& mesh, const Task& task = {});
+SEAMWIRE_API Surface make_surface(const PolygonMesh& mesh, const Task& = {});
 
 }  // namespace seamwire

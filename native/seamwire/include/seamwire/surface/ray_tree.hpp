@@ -51,8 +51,7 @@ class SEAMWIRE_API RayTree {
   /// Wait until the tree is built, or until there is not enough memory for it.
   ///
   /// \param task cancellation; the reported fraction stays 0
-  /// \throws Cancelled if the task is cancelled
-  void wait(const Task& task = {}) const;
+  void wait(const Task& = {}) const;
 
  private:
   struct Parts;  // ray_tree.cpp

@@ -20,12 +20,10 @@ namespace seamwire {
 /// \param surface the surface to cut
 /// \param cut_edges vertex pairs in either order. Pairs that are not real edges, such as diagonals of polygons, cut
 ///   nothing.
-/// \param task progress and cancellation
 /// \returns the segment of each of the caller's triangles. Segments are numbered from the one with the most triangles
 ///   to the one with the fewest. If two have the same size, the segment with the first triangle comes first.
 /// \throws InvalidInput if a vertex is out of range
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges,
-                                                     const Task& task = {});
+                                                     const Task& = {});
 
 }  // namespace seamwire

@@ -63,14 +63,12 @@ class SEAMWIRE_API Surface {
   /// \param triangles vertex numbers in [0, points.size())
   /// \param edges the real edges if faces are triangulated polygons, and edges without a face; nullopt if every edge of
   ///   a triangle is real
-  /// \param task progress and cancellation
   /// \throws InvalidInput if a coordinate is not finite or above 1e150 in size, or an index is out of range. The
   ///   message names the element.
   /// \throws InvalidInput if the longest side of the bounding box of the used vertices is below 1e-150, but not 0
   /// \throws InvalidInput if an edge joins a vertex to itself, or the mesh has no edge
-  /// \throws Cancelled if the task is cancelled
   Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
-          std::optional<std::vector<Edge>> edges = std::nullopt, const Task& task = {});
+          std::optional<std::vector<Edge>> edges = std::nullopt, const Task& = {});
 
   /// Return the number of points, used or not.
   std::size_t vertex_count() const { return points_.size(); }

@@ -36,13 +36,11 @@ class SEAMWIRE_API BentWires {
   /// \param geodesics the solver on the embedding's mesh
   /// \param field the field of the cut
   /// \param cut the cut
-  /// \param task progress and cancellation
   /// \throws InvalidInput if the surface or the embedding is null, or the field has several sources
   /// \throws InvalidInput if the cut does not lead through the seed of the field, or is of another embedding
   /// \throws InvalidInput if sizes show that embedding, geodesics and field do not belong together
-  /// \throws Cancelled if the task is cancelled
   BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding,
-            const ExactGeodesics& geodesics, const DistanceField& field, const ClosedWire& cut, const Task& task = {});
+            const ExactGeodesics& geodesics, const DistanceField& field, const ClosedWire& cut, const Task& = {});
   ~BentWires();
   BentWires(BentWires&&) noexcept;             ///< the other object may then only be destroyed or assigned to
   BentWires& operator=(BentWires&&) noexcept;  ///< the other object may then only be destroyed or assigned to
@@ -50,12 +48,10 @@ class SEAMWIRE_API BentWires {
   /// Find the cut that also leads through a second point.
   ///
   /// \param second a point of the embedding, which EmbeddedPoints finds
-  /// \param task progress and cancellation
   /// \returns the cut. nullopt if no cut leads there, because the point is on another part of the surface or at a place
   ///   that was removed.
   /// \throws InvalidInput if the point is not on the embedding
-  /// \throws Cancelled if the task is cancelled
-  std::optional<BentWire> through(const SurfacePoint& second, const Task& task = {}) const;
+  std::optional<BentWire> through(const SurfacePoint& second, const Task& = {}) const;
 
  private:
   struct Impl;

@@ -42,16 +42,13 @@ struct ClosedWire {
 /// \param embedding an embedding of the surface
 /// \param field distances over the embedding from one seed
 /// \param count the largest number of cuts
-/// \param task progress and cancellation
 /// \returns the cuts, best first. Empty if nothing suggests a cut. For example, no two wires meet on a plane. On a
 ///   sphere, or from the tip of a limb, wires in all directions meet in one place.
 /// \throws InvalidInput if the field has several sources
 /// \throws InvalidInput if the field is of another embedding, or the embedding of another surface, as far as sizes tell
-/// \throws Cancelled if the task is cancelled
 /// \see Erickson and Whittlesey 2005, "Greedy Optimal Homotopy and Homology Generators", for the two trees
 SEAMWIRE_API std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding,
-                                                  const DistanceField& field, std::size_t count = 3,
-                                                  const Task& task = {});
+                                                  const DistanceField& field, std::size_t count = 3, const Task& = {});
 
 /// Identifies one of the closed cuts through a point in several metrics.
 struct ClosedCutId {

@@ -29,9 +29,7 @@ class SEAMWIRE_API SnapGraph {
   /// Find the polygons of a surface, in time proportional to its size.
   ///
   /// \param surface the surface
-  /// \param task progress and cancellation
-  /// \throws Cancelled if the task is cancelled
-  explicit SnapGraph(const Surface& surface, const Task& task = {});
+  explicit SnapGraph(const Surface& surface, const Task& = {});
 
  private:
   friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
@@ -53,12 +51,10 @@ class SEAMWIRE_API SnapGraph {
 /// \param surface the surface
 /// \param graph the SnapGraph of the surface
 /// \param wire a wire from one vertex to another
-/// \param task progress and cancellation
 /// \returns the vertices of the path. Empty if the wire is empty, or no path of edges connects its ends.
 /// \throws InvalidInput if the wire does not begin and end at vertices, or its points do not lie in its faces
 /// \throws InvalidInput if the graph is of a surface with other numbers of vertices, faces or edges
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
-                                                     const Task& task = {});
+                                                     const Task& = {});
 
 }  // namespace seamwire

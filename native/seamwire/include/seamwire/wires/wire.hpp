@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "seamwire/api.hpp"
@@ -46,12 +47,10 @@ SEAMWIRE_API Wire map_wire(const Surface& surface, const Embedding& embedding, c
 /// \param embedding an embedding of the surface
 /// \param field distances over the embedding
 /// \param point a point of the embedding, which EmbeddedPoints finds. The caller's vertices keep their numbers.
-/// \param task progress and cancellation
-/// \returns the wire, without points if the point is unreachable
+/// \returns the wire, or nullopt if the point is unreachable
 /// \throws InvalidInput if DistanceField::trace() rejects the point
 /// \throws InvalidInput if the field is of another embedding, or the embedding of another surface, as far as sizes tell
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
-                             const SurfacePoint& point, const Task& task = {});
+SEAMWIRE_API std::optional<Wire> trace_wire(const Surface& surface, const Embedding& embedding,
+                                            const DistanceField& field, const SurfacePoint& point, const Task& = {});
 
 }  // namespace seamwire

@@ -88,15 +88,13 @@ struct Flattening {
 /// \param surface the surface
 /// \param cuts vertex pairs in either order. Pairs that are not real edges of the surface cut nothing.
 /// \param options how islands are mapped
-/// \param task progress and cancellation
 /// \returns the map
 /// \throws InvalidInput if a vertex is out of range, or the start has the wrong size or is not finite
 /// \throws InvalidInput if the up direction is zero or not finite, or `tolerance` or `straighten` is out of range
 /// \throws InvalidInput if no opening makes it possible to map an island
-/// \throws Cancelled if the task is cancelled
 /// \see Smith and Schaefer 2015, for the energy
 /// \see Tutte 1963, for the embedding
 SEAMWIRE_UV_API Flattening flatten(const Surface& surface, std::span<const Edge> cuts,
-                                   const FlattenOptions& options = {}, const Task& task = {});
+                                   const FlattenOptions& options = {}, const Task& = {});
 
 }  // namespace seamwire

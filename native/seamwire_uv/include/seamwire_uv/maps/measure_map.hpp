@@ -49,24 +49,20 @@ struct MapReport {
 ///   count as having no length.
 /// \param islands the island of each triangle, from 0. Empty: triangles are in one island if they agree on the UVs of a
 ///   shared edge.
-/// \param task progress and cancellation
 /// \returns the measures
 /// \throws InvalidInput if an array has the wrong size, a UV is not finite, or an island number is not below the
 ///   number of triangles
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_UV_API MapReport measure_map(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
-                                      std::span<const std::int32_t> islands = {}, const Task& task = {});
+                                      std::span<const std::int32_t> islands = {}, const Task& = {});
 
 /// Compute MapReport::energy alone, in less time.
 ///
 /// \param surface the surface
 /// \param uvs as in measure_map()
 /// \param islands as in measure_map()
-/// \param task progress and cancellation
 /// \returns the energy: 4 for an isometry, infinite if no triangle remains
 /// \throws InvalidInput if measure_map() rejects an argument
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_UV_API double map_energy(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
-                                  std::span<const std::int32_t> islands = {}, const Task& task = {});
+                                  std::span<const std::int32_t> islands = {}, const Task& = {});
 
 }  // namespace seamwire

@@ -54,12 +54,10 @@ struct Packing {
 /// \param uvs the corners of triangles in the plane, in one unit of length for all islands, at most 1e100
 /// \param islands the island of each triangle, from 0, below the number of triangles
 /// \param options margin and turns
-/// \param task progress and cancellation
 /// \returns the places
 /// \throws InvalidInput if an array has the wrong size, or a value is out of range or not finite
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_UV_API Packing pack_islands(std::span<const std::array<Eigen::Vector2d, 3>> uvs,
                                      std::span<const std::int32_t> islands, const PackOptions& options = {},
-                                     const Task& task = {});
+                                     const Task& = {});
 
 }  // namespace seamwire

@@ -33,13 +33,11 @@ struct NewIslands {
 ///
 /// \param islands the new islands
 /// \param taken boxes around what stays
-/// \param task progress and cancellation
 /// \returns per island, the map P to its place: a point (x, y) of `after` lies at P * (x, y, 1). Zero for an island
 ///   without triangles.
 /// \throws InvalidInput if an array has the wrong size, or a value is out of range or not finite
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_UV_API std::vector<Eigen::Matrix<double, 2, 3>> place_islands(const NewIslands& islands,
                                                                        const std::vector<Eigen::AlignedBox2d>& taken,
-                                                                       const Task& task = {});
+                                                                       const Task& = {});
 
 }  // namespace seamwire

@@ -87,10 +87,9 @@ struct IslandChanges {
 /// \param mesh the polygons
 /// \param uvs the map
 /// \param memory per edge
-/// \param task progress and cancellation
 /// \returns the changes
 SEAMWIRE_UV_API IslandChanges changed_islands(const UnwrapMesh& mesh, const std::vector<Eigen::Vector2d>& uvs,
-                                              const std::vector<EdgeMemory>& memory, const Task& task = {});
+                                              const std::vector<EdgeMemory>& memory, const Task& = {});
 
 /// Count the hidden polygons that have an area on the model, but none in a map.
 ///
@@ -120,11 +119,10 @@ struct FlatIslands {
 /// \param mesh the polygons
 /// \param is_chosen which islands
 /// \param options how islands are mapped
-/// \param task progress and cancellation
 /// \returns the map
 /// \throws InvalidInput if flatten() throws it
 SEAMWIRE_UV_API FlatIslands flatten_islands(const UnwrapMesh& mesh, const std::vector<std::uint8_t>& is_chosen,
-                                            const FlattenIslandsOptions& options = {}, const Task& task = {});
+                                            const FlattenIslandsOptions& options = {}, const Task& = {});
 
 /// A mesh in a UV map.
 struct MappedMesh {
@@ -147,9 +145,8 @@ struct MapFaults {
 ///
 /// \param maps all that lies in the map; islands that are not chosen are what others may overlap
 /// \param may_stack whether islands may lie exactly on each other
-/// \param task progress and cancellation
 /// \returns the faults
-SEAMWIRE_UV_API MapFaults map_faults(std::span<const MappedMesh> maps, bool may_stack, const Task& task = {});
+SEAMWIRE_UV_API MapFaults map_faults(std::span<const MappedMesh> maps, bool may_stack, const Task& = {});
 
 /// Turn back triangles that rounding to single precision has turned over.
 ///

@@ -93,21 +93,17 @@ class SEAMWIRE_UV_API PartFinder {
   ///
   /// \param surface the surface, not null
   /// \param options what is known about parts
-  /// \param task progress and cancellation
   /// \throws InvalidInput if the surface is null, an axis or a vertex is out of range, or the front is no
   ///   direction
-  /// \throws Cancelled if the task is cancelled
-  explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& task = {});
+  explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& = {});
 
   /// Find parts.
   ///
   /// \param amount how many, from 0 to 1: 0 joins everything that is connected, 1 separates parts at all sharp edges
   /// \param edits changes made by hand
-  /// \param task progress and cancellation
   /// \returns the parts and their borders
   /// \throws InvalidInput if the amount, a vertex or a triangle is out of range
-  /// \throws Cancelled if the task is cancelled
-  Parts find(double amount = 0.5, const PartEdits& edits = {}, const Task& task = {}) const;
+  Parts find(double amount = 0.5, const PartEdits& edits = {}, const Task& = {}) const;
   /// Return what separates parts: rims, limbs or panels. Panels that kShape has on some pieces count.
   PartsBy by() const;
 

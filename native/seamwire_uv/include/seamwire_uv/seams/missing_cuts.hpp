@@ -23,11 +23,9 @@ namespace seamwire {
 /// \param surface the surface
 /// \param cut_edges as in face_segments()
 /// \param segments the result of face_segments() for these cuts
-/// \param task progress and cancellation
 /// \returns the number of cuts for each segment
 /// \throws InvalidInput if a vertex is out of range, or the segments are of another surface or of other cuts
-/// \throws Cancelled if the task is cancelled
 SEAMWIRE_UV_API std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
-                                                       std::span<const std::int32_t> segments, const Task& task = {});
+                                                       std::span<const std::int32_t> segments, const Task& = {});
 
 }  // namespace seamwire

@@ -115,22 +115,18 @@ class SEAMWIRE_UV_API SeamPlanner {
   ///
   /// \param context the surface
   /// \param options how seams are planned
-  /// \param task progress and cancellation
   /// \throws InvalidInput if an option is out of range, or check_strength() rejects the strength
   /// \throws InvalidInput if the surface has no area
-  /// \throws Cancelled if the task is cancelled
-  explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& task = {});
+  explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& = {});
 
   /// Plan seams.
   ///
   /// \param goal what the seams have to achieve
   /// \param found called on this thread with each better plan. The first one has the trees of all pieces. May be empty.
-  /// \param task progress and cancellation
   /// \returns the best plan
   /// \throws InvalidInput if the distortion is not above 4
-  /// \throws Cancelled if the task is cancelled
   SeamPlan plan(const SeamGoal& goal = {}, const std::function<void(const SeamPlan&)>& found = {},
-                const Task& task = {}) const;
+                const Task& = {}) const;
 
  private:
   struct Impl;
