@@ -53,10 +53,10 @@ TEST(BoxTree, VisitsFewItemsNearAPlace) {
   ASSERT_TRUE(tree.build(points.size(), box_of, [] { return true; }));
   std::size_t visited = 0;
   for (const Vector& point : points) {
-    double least = 0.25;
-    tree.visit_near({-point.x(), point.y(), point.z()}, least, BoxTree::kRounded, [&](std::int32_t i) {
+    const Vector place(-point.x(), point.y(), point.z());
+    tree.visit_near(place, 0.25, BoxTree::kRounded, [&](std::int32_t i, double& least) {
       ++visited;
-      least = std::min(least, (points[tree.order[i]] - Vector(-point.x(), point.y(), point.z())).squaredNorm());
+      least = std::min(least, (points[tree.order[i]] - place).squaredNorm());
     });
   }
   EXPECT_LT(visited, 60 * points.size());

@@ -75,17 +75,17 @@ struct BoxTree {
     enclose(box_of, kGoesOn);
   }
 
-  /// Calls visit(i) for the items order[i] that may be near a place: those in boxes whose squared distance times
+  /// Calls visit(i, least) for the items order[i] that may be near a place: those in boxes whose squared distance times
   /// `rounded` is no more than `least`, which `visit` may lower. Nearer boxes come first. `rounded`: kRounded, or 1 if
   /// no item in a box counts that is nearer than the box by rounding.
   template <class Visit>
-  void visit_near(const Vector& place, const double& least, double rounded, const Visit& visit) const {
+  void visit_near(const Vector& place, double least, double rounded, const Visit& visit) const {
     struct Waiting {
       std::int32_t node;
       double off;
     };
     const auto waiting_at = [&](std::int32_t node) {
-      return Waiting{.node = node, .off = rounded * nodes[node].box.squaredExteriorDistance(place)};
+      return Waiting{.node = node, .off = rounded * squared_distance(nodes[node].box, place)};
     };
     std::array<Waiting, kMostDepth> waiting;
     std::size_t count = 0;
@@ -94,12 +94,12 @@ struct BoxTree {
       const Waiting next = waiting[--count];
       if (next.off > least) continue;
       const Node& node = nodes[next.node];
-      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(i);
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(i, least);
       if (node.count > 0) continue;
-      Waiting near = waiting_at(node.first), far = waiting_at(node.first + 1);
-      if (far.off < near.off) std::swap(near, far);
-      waiting[count++] = far;
-      waiting[count++] = near;
+      const Waiting one = waiting_at(node.first), other = waiting_at(node.first + 1);
+      const bool one_is_near = one.off <= other.off;
+      waiting[count++] = one_is_near ? other : one;
+      waiting[count++] = one_is_near ? one : other;
     }
   }
 
@@ -122,6 +122,16 @@ struct BoxTree {
  private:
   static constexpr std::int32_t kMostInANode = 4;
   static constexpr std::size_t kWorkBetweenChecks = 16384;
+
+  /// As AlignedBox::squaredExteriorDistance(), without its branches.
+  static double squared_distance(const Box& box, const Vector& place) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double off = std::max({box.min()[axis] - place[axis], place[axis] - box.max()[axis], 0.0});
+      sum += off * off;
+    }
+    return sum;
+  }
 
   /// Makes nodes without boxes. `part(first, size)` moves the items of a node to the half that they belong in.
   template <class Part, class GoesOn>

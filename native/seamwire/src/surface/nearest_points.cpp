@@ -144,8 +144,7 @@ NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> t
 
 NearestPoint NearestPoints::Impl::find(const Vector& place, const Vector* normal, std::int32_t& hint) const {
   NearestPoint best;
-  double least = kInfinity;
-  const auto look_at = [&](std::int32_t i) {
+  const auto look_at = [&](std::int32_t i, double& least) {
     if (normal != nullptr && normals[i].dot(*normal) < 0.0) return;
     const Vector point = nearest_in(corners[i], place);
     const double square = (point - place).squaredNorm();
@@ -155,8 +154,9 @@ NearestPoint NearestPoints::Impl::find(const Vector& place, const Vector* normal
     best = {.triangle = triangle, .point = point, .distance = std::sqrt(square)};
     hint = i;
   };
-  look_at(hint);
-  tree.visit_near(place, least, BoxTree::kRounded, look_at);
+  double squared = kInfinity;
+  look_at(hint, squared);
+  tree.visit_near(place, squared, BoxTree::kRounded, look_at);
   return best;
 }
 

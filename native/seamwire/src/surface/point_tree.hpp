@@ -31,8 +31,7 @@ class PointTree {
   /// points at this distance and farther away are ignored.
   std::int32_t nearest(const Vector& to, double radius) const {
     std::int32_t found = -1;
-    double least = radius * radius;
-    tree_.visit_near(to, least, BoxTree::kRounded, [&](std::int32_t i) {
+    tree_.visit_near(to, radius * radius, BoxTree::kRounded, [&](std::int32_t i, double& least) {
       const double distance = (points_[i] - to).squaredNorm();
       const std::int32_t point = tree_.order[i];
       if (!(distance < least || (distance == least && found >= 0 && point < found))) return;

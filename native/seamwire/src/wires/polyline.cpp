@@ -42,7 +42,9 @@ double Polyline::squared_distance(const Vector& p, const Segment& s) {
 
 double Polyline::distance(const Vector& p, double bound) const {
   double best = bound * bound;
-  tree_.visit_near(p, best, 1.0, [&](std::int32_t s) { best = std::min(best, squared_distance(p, segments_[s])); });
+  tree_.visit_near(p, best, 1.0, [&](std::int32_t s, double& least) {
+    least = best = std::min(least, squared_distance(p, segments_[s]));
+  });
   return std::sqrt(best);
 }
 
