@@ -92,7 +92,7 @@ void bind_traces(FieldClass& field) {
   field.def("trace", &trace, py::arg("vertex"), py::arg("progress") = py::none(),
             R"(Trace the path from the seed to a vertex.
 
-The path of an exact field is the shortest one. The path of a heat field descends the distance, and is longer.
+The path of an exact field is the shortest one. The path of a heat field is locally shortest.
 
 Parameters
 ----------

@@ -929,7 +929,7 @@ class DistanceField:
     def trace(self, vertex: int, progress: Callable[[float], bool | None] | None = None) -> Wire:
         """Trace the path from the seed to a vertex.
 
-        The path of an exact field is the shortest one. The path of a heat field descends the distance, and is longer.
+        The path of an exact field is the shortest one. The path of a heat field is locally shortest.
 
         Parameters
         ----------

@@ -7,12 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "detail/computed_once.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "geodesics/descent.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/heat_system.hpp"
+#include "geodesics/path_tracing.hpp"
 #include "geodesics/placed_point.hpp"
+#include "geodesics/submesh.hpp"
 
 namespace seamwire {
 
@@ -22,9 +25,57 @@ struct HeatGeodesics::Prepared {
   Prepared(const IntrinsicMesh& of, const Task& task)
       : mesh(of, part_of(task, 0.1, 0.15)), system(of, part_of(task, 0.15, 1.0)) {}
 
+  /// What paths are shortened on, made for the first one.
+  const GeodesicMesh& geodesic_mesh(const Task& task) const {
+    return *made_geodesic_mesh.get(part_of(task, 0.0, 0.0),
+                                   [&](const Task& own) { return GeodesicMesh(mesh.mesh(), own); });
+  }
+
   WalkedMesh mesh;
   HeatSystem system;
+  mutable ComputedOnce<GeodesicMesh> made_geodesic_mesh;
 };
+
+namespace {
+
+/// A path is shortened so often at most, ...
+constexpr int kMostRounds = 20;
+/// ... and only while it gets shorter by this part of its length.
+constexpr double kLeastGain = 1e-3;
+
+SurfacePoint surface_point(const PathPoint& point) {
+  if (point.vertex >= 0) return SurfacePoint(point.vertex);
+  if (point.face >= 0) return {point.face, point.barycentric};
+  SurfacePoint on_edge(point.half_edge / 3, {});
+  on_edge.barycentric[static_cast<std::size_t>(point.half_edge % 3)] = 1 - point.t;
+  on_edge.barycentric[static_cast<std::size_t>((point.half_edge + 1) % 3)] = point.t;
+  return on_edge;
+}
+
+/// The locally shortest path near another one. Each round searches the triangles around the last path.
+IntrinsicPath shortened(const GeodesicMesh& mesh, IntrinsicPath path, const Task& task) {
+  if (path.points.size() < 2) return path;
+  const PlacedPoint source = PlacedPoint::of(mesh, surface_point(path.points.front()), "source");
+  const PlacedPoint target = PlacedPoint::of(mesh, surface_point(path.points.back()), "point");
+  IntrinsicPath inside = path;
+  for (PathPoint& point : inside.points) {
+    if (point.vertex >= 0) point.vertex = mesh.internal_vertex(point.vertex);
+    if (point.half_edge >= 0) point.half_edge = 3 * mesh.internal_face(point.half_edge / 3) + point.half_edge % 3;
+  }
+  SubmeshCutter cutter(mesh);
+  for (int round = 0; round < kMostRounds; ++round) {
+    IntrinsicPath next = shorten(mesh, cutter, inside, source, target, part_of(task, 0.0, 0.0));
+    if (next.points.empty() || !(next.length < path.length)) break;
+    const bool is_enough = next.length > (1 - kLeastGain) * path.length;
+    inside = next;
+    path = std::move(next);
+    to_external(mesh, path);
+    if (is_enough) break;
+  }
+  return path;
+}
+
+}  // namespace
 
 class HeatGeodesics::Solved final : public SolvedField {
  public:
@@ -47,7 +98,8 @@ class HeatGeodesics::Solved final : public SolvedField {
     task.check(0.0);
     const PlacedPoint from = prepared_->mesh.place(point, "point");
     if (std::isinf(distance_of(from))) return {};
-    return descend(prepared_->mesh, complete(), ends_, from, task);
+    const GeodesicMesh& mesh = prepared_->geodesic_mesh(task);
+    return shortened(mesh, descend(prepared_->mesh, complete(), ends_, from, task), task);
   }
 
  private:

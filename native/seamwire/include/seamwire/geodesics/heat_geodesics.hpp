@@ -21,8 +21,8 @@ namespace seamwire {
 ///
 /// - Heat flows over intrinsic Delaunay triangles, which the constructor makes by flipping edges. Vertices stay.
 /// - The distance of a point in a face is interpolated from the corners of the face.
-/// - Paths descend the distance. They are real paths with their true length, which is not the distance, and is longer
-///   than the geodesic.
+/// - Paths descend the distance, and are then shortened. They are real paths with their true length, which is not the
+///   distance. They are locally shortest, and never shorter than the geodesic. The first path prepares more.
 /// - SolveOptions::targets do not shorten a solve. Beyond SolveOptions::max_distance, distances are infinite.
 ///
 /// Copies share the matrices.
