@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The snippets of docs/library/geodesics.md.
 #include <cstdio>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -45,4 +46,18 @@ int main() {
   const IntrinsicPath path = paths.path(end);        // at least as long as the geodesic
   //! [corridor]
   std::printf("length of a path found at once: %g\n", path.length);
+
+  //! [heat]
+  const HeatGeodesics& heat = embedded.heat();  // factors two matrices, once
+  const EmbeddedField approximate = embedded.field(heat, seeds);
+  //! [heat]
+  std::printf("approximate distance from the nearest seed: %g\n", approximate.distance(end));
+
+  //! [method]
+  const ExactGeodesics& exact = embedded.geodesics();
+  for (const DistanceMethod* method : std::initializer_list<const DistanceMethod*>{&exact, &heat}) {
+    const EmbeddedField from_start = embedded.field(*method, {&seeds.front(), 1});
+    std::printf("%g away, over a wire of %g\n", from_start.distance(end), from_start.trace(end)->length);
+  }
+  //! [method]
 }

@@ -10,6 +10,7 @@
 #include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/geodesics/heat_geodesics.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
@@ -28,6 +29,7 @@ struct EmbeddingObject {
       : embedded(std::move(made)), surface(embedded.context().peek_surface()), embedding(embedded.embedding()) {}
 
   const ExactGeodesics& geodesics(const Task& task) const { return embedded.geodesics(task); }
+  const HeatGeodesics& heat(const Task& task) const { return embedded.heat(task); }
   const Edges& edges() const;
 
   /// Finds a point of the surface on the embedding. Throws InvalidInput, which begins with `name`, if the embedding has

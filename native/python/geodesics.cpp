@@ -27,10 +27,11 @@
 namespace seamwire::python {
 namespace {
 
-/// A distance field, with the embedding it refers to.
+/// A distance field, with the embedding it refers to, and the name of its method.
 struct FieldObject {
   std::shared_ptr<const EmbeddingObject> embedding;
   DistanceField field;
+  std::string method;
 };
 
 using FieldClass = py::class_<FieldObject, Held<FieldObject>>;
@@ -76,6 +77,9 @@ void bind_distances(FieldClass& field) {
       .def_property_readonly(
           "radius", [](const FieldObject& f) { return f.field.radius(); },
           "float: the distance at which the solver stopped, or inf. Larger distances are inf.")
+      .def_property_readonly(
+          "method", [](const FieldObject& f) { return f.method; },
+          "str: 'exact' or 'heat', the method that computed the distances.")
       .def_property_readonly("distances", &distances_of,
                              "(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no "
                              "path reaches the vertex.")
@@ -87,7 +91,9 @@ void bind_distances(FieldClass& field) {
 
 void bind_traces(FieldClass& field) {
   field.def("trace", &trace, py::arg("vertex"), py::arg("progress") = py::none(),
-            R"(Trace the shortest path from the seed to a vertex.
+            R"(Trace the path from the seed to a vertex.
+
+The path of an exact field is the shortest one. The path of a heat field is locally shortest.
 
 Parameters
 ----------
@@ -98,7 +104,7 @@ progress : callable, optional
 Returns
 -------
 Wire or None
-    Its length is the vertex's distance. None if the vertex is unreachable.
+    In an exact field, its length is the vertex's distance. None if the vertex is unreachable.
 
 Raises
 ------
@@ -107,7 +113,7 @@ ValueError
 Cancelled
 )");
   field.def("trace_many", &trace_many, py::arg("vertices"), py::arg("progress") = py::none(),
-            R"(Trace the shortest paths from the seed to several vertices (Figure 1).
+            R"(Trace the paths from the seed to several vertices, as `trace` does (Figure 1).
 
 Parameters
 ----------
@@ -152,7 +158,7 @@ void bind_points_of_faces(FieldClass& field) {
   field.def("distance", &distance_to, py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
             R"(Compute the distance of any point of a face.
 
-The distance is exact on the embedding. It is not interpolated from the vertices.
+In an exact field, the distance is exact on the embedding. In a heat field, it is interpolated from the corners.
 
 Parameters
 ----------
@@ -176,7 +182,7 @@ ValueError
 Cancelled
 )");
   field.def("trace_to", &trace_to, py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
-            R"(Trace the shortest path from the nearest seed to any point of a face.
+            R"(Trace the path from the nearest seed to any point of a face, as `trace` does.
 
 Parameters
 ----------
@@ -281,35 +287,45 @@ Solve solve_from(const Surface& surface, const py::object& seed, const py::objec
 
 Held<FieldObject> make_field(const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed,
                              const py::object& progress, const py::object& targets,
-                             const std::optional<double>& max_distance) {
+                             const std::optional<double>& max_distance, const std::string& method) {
+  const bool by_heat = method == "heat";
+  if (!by_heat && method != "exact") throw InvalidInput("method: expected 'exact' or 'heat', got '" + method + "'");
   Solve solve = solve_from(*embedding->surface, seed, targets, max_distance);
   return Watch(progress).run([&](const Task& task) {
-    const ExactGeodesics& geodesics = embedding->geodesics(detail::part_of(task, 0.0, 0.0));
+    // Factoring takes longer than a solve.
+    const double prepared = by_heat ? 0.8 : 0.0;
+    const Task first = detail::part_of(task, 0.0, prepared), last = detail::part_of(task, prepared, 1.0);
+    const DistanceMethod& solver =
+        by_heat ? static_cast<const DistanceMethod&>(embedding->heat(first)) : embedding->geodesics(first);
     for (SurfacePoint& point : solve.seeds) point = embedding->find(point, "seed");
     for (SurfacePoint& point : solve.options.targets) point = embedding->find(point, "target");
-    return make_held<FieldObject>(FieldObject{embedding, geodesics.solve(solve.seeds, solve.options, task)});
+    return make_held<FieldObject>(FieldObject{embedding, solver.solve(solve.seeds, solve.options, last), method});
   });
 }
 
 void bind_distance_field(py::module_& module) {
   module.def("distance_field", &make_field, py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(),
-             py::arg("targets") = py::none(), py::arg("max_distance") = py::none(),
+             py::arg("targets") = py::none(), py::arg("max_distance") = py::none(), py::arg("method") = "exact",
              R"(Compute distances over an embedding from a point, or from the nearest of several points.
 
-Distances are exact on the embedding.
+Distances are exact on the embedding, or approximated by the heat method.
 
 Parameters
 ----------
 embedding : Embedding
-    The first call builds a solver, and the embedding keeps it.
+    The first call with each method builds a solver, and the embedding keeps it.
 seed : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like)
     A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
-    Stop when the distances and paths of these points are known. Other distances may be missing (inf).
+    Stop when the distances and paths of these points are known. Other distances may be missing (inf). The heat method
+    does not stop.
 max_distance : float, optional
     At least 0. Stop at this distance; larger distances are inf.
+method : {'exact', 'heat'}
+    'exact' propagates windows. 'heat' solves two linear systems with matrices that the first call factors. Each
+    further call with any seeds then takes about the same time.
 
 Returns
 -------
@@ -319,8 +335,12 @@ Raises
 ------
 ValueError
     If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if
-    max_distance is out of range.
+    max_distance or method is not valid.
 Cancelled
+
+References
+----------
+docs/method/heat.md.
 )");
 }
 

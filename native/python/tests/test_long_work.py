@@ -62,8 +62,9 @@ def embedding_of_large(large: sw.Surface, large_metric: sw.Metric) -> sw.Embeddi
 
 
 CALLS = (
-    "Surface", "principal_curvatures", "feature_metric", "repr of a metric", "embed", "distance_field", "edge_wires",
-    "snap", "first_hit", "flatten", "live wire across", "live wire along", "live wire that builds its surface", "change of a live wire",
+    "Surface", "principal_curvatures", "feature_metric", "repr of a metric", "embed", "distance_field", "distance_field by heat",
+    "edge_wires", "snap", "first_hit", "flatten", "live wire across", "live wire along", "live wire that builds its surface",
+    "change of a live wire",
 )  # fmt: skip
 
 
@@ -99,6 +100,7 @@ def test_other_threads_run_meanwhile(
         "repr of a metric": lambda: repr(large_metric),
         "embed": lambda: sw.embed(large, large_metric),
         "distance_field": lambda: sw.distance_field(embedding_of_large, 0),
+        "distance_field by heat": lambda: sw.distance_field(embedding_of_large, 0, method="heat"),
         "edge_wires": lambda: sw.edge_wires(large, large_metric, 0),
         "snap": lambda: sw.snap_to_edges(sw.Surface(points, triangles), across),
         "first_hit": lambda: sw.RayTree(points, triangles).first_hit((0.0, 0.0, 9.0), (0.0, 0.0, -1.0)),
@@ -126,8 +128,8 @@ def test_other_threads_run_meanwhile(
 
 LONG = (
     "Surface", "principal_curvatures", "smoothed_curvatures", "feature_metric", "campen_metric", "pottmann_kovacs_metric",
-    "concave_metric", "euclidean_metric", "apply_scribbles", "embed", "distance_field", "edge_wires", "shortest_cycle", "flatten",
-    "pack_islands",
+    "concave_metric", "euclidean_metric", "apply_scribbles", "embed", "distance_field", "distance_field by heat", "edge_wires",
+    "shortest_cycle", "flatten", "pack_islands",
 )  # fmt: skip
 
 
@@ -152,6 +154,9 @@ def work(
         "apply_scribbles": lambda progress: sw.apply_scribbles(large, large_metric, [stroke], progress=progress),
         "embed": lambda progress: sw.embed(large, large_metric, progress=progress),
         "distance_field": lambda progress: sw.distance_field(embedding_of_large, 0, progress=progress),
+        "distance_field by heat": lambda progress: sw.distance_field(
+            embedding_of_large, 0, method="heat", progress=progress
+        ),
         "edge_wires": lambda progress: sw.edge_wires(large, large_metric, 0, progress=progress),
         "flatten": lambda progress: sw.flatten(*meshes.torus(60, 40), progress=progress),
         "pack_islands": lambda progress: sw.pack_islands(

@@ -3,6 +3,7 @@
 // What takes long can be stopped, and looks often enough whether it is to be: counted, not timed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/geodesics/heat_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/nearest_points.hpp"
 #include "seamwire/surface/segments.hpp"
@@ -206,6 +208,20 @@ TEST_F(Cancelling, TheMeshOfTheGeodesics) {
   const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
   expect_stops(faces + 3 * faces + faces + 2 * faces + vertices + faces + 2 * faces + vertices + vertices,
                [&](const Task& task) { ExactGeodesics(embedding.mesh, task); });
+}
+
+TEST_F(Cancelling, TheHeatMethod) {
+  const IntrinsicMesh mesh = embed(surface, euclidean_metric(surface, principal_curvatures(surface))).mesh;
+  // The mesh is checked, its edges are flipped, and its equations are set up.
+  expect_stops(5 * faces + 2 * faces + 3 * faces / 2 + 2 * faces, [&](const Task& task) { HeatGeodesics(mesh, task); });
+  const HeatGeodesics heat(mesh);
+  expect_stops(faces, [&](const Task& task) { heat.solve(0, task); });
+  const DistanceField field = heat.solve(0);
+  const auto farthest =
+      static_cast<std::int32_t>(std::ranges::max_element(field.distances()) - field.distances().begin());
+  const std::size_t crossed = field.trace(farthest).faces.size();
+  ASSERT_GT(crossed, Poll::kFewSteps);
+  expect_stops(crossed * Poll::kSteps / Poll::kFewSteps, [&](const Task& task) { field.trace(farthest, task); });
 }
 
 TEST_F(Cancelling, APathAtOnce) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -16,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/context/surface_context.hpp"
@@ -60,6 +62,11 @@ std::vector<Work> all_work() {
       {"make_metric", [=](const Task& task) { make_metric(context, MetricSpec::concave(), task); }},
       {"EmbeddedSurface", [=](const Task& task) { EmbeddedSurface(context, metric, {}, task); }},
       {"its field", [=](const Task& task) { embedded.field(0, task); }},
+      {"its field by the heat method",
+       [=](const Task& task) {
+         const EmbeddedSurface fresh(context, metric);
+         fresh.field(fresh.heat(part_of(task, 0.0, 0.5)), std::array{SurfacePoint(0)}, {}, part_of(task, 0.5, 1.0));
+       }},
       {"its closed wires", [=](const Task& task) { embedded.field(0).closed_wires(3, task); }},
       {"closed wires over an edge of three faces",
        [=](const Task& task) { embedded_complex.field(300).closed_wires(3, task); }},

@@ -20,6 +20,7 @@
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/geodesics/distance_method.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/geodesics/heat_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/crest_lines.hpp"
 #include "seamwire/metric/curvature.hpp"

@@ -95,6 +95,10 @@ const ExactGeodesics& EmbeddedSurface::geodesics(const Task& task) const {
   return *data_->geodesics.get(task, [&](const Task& own) { return ExactGeodesics(embedding().mesh, own); });
 }
 
+const HeatGeodesics& EmbeddedSurface::heat(const Task& task) const {
+  return *data_->heat.get(task, [&](const Task& own) { return HeatGeodesics(embedding().mesh, own); });
+}
+
 const EmbeddedPoints& EmbeddedSurface::points() const {
   return *data_->points.get({}, [&](const Task&) { return EmbeddedPoints(data_->surface, data_->embedding); });
 }

@@ -24,6 +24,7 @@ struct EmbeddedSurface::Data {
   std::optional<MetricSpec> spec;              // set before others know of this
   std::shared_ptr<const Embedding> embedding;  // set before others know of this
   detail::ComputedOnce<ExactGeodesics> geodesics;
+  detail::ComputedOnce<HeatGeodesics> heat;
   detail::ComputedOnce<EmbeddedPoints> points;
 };
 

@@ -9,6 +9,7 @@
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "geodesics/triangle_area.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -146,7 +147,19 @@ void check_longest(const IntrinsicMesh& mesh) {
   }
 }
 
-void check(const IntrinsicMesh& mesh, const Task& task) {
+/// If the longest edge is longer than 2 to this power, or shorter than the inverse, hops have a separate unit. The
+/// number of vertices times 2^80 is still far below 2^128, where single precision ends.
+constexpr int kMostHopExponent = 80;
+
+/// Where more than one in so many faces has changed, building anew is no slower than patching.
+constexpr std::size_t kFacesPerChange = 4;
+
+/// Items that memory is asked for in advance.
+constexpr std::size_t kAhead = 8;
+
+}  // namespace
+
+void check_mesh(const IntrinsicMesh& mesh, const Task& task) {
   check_sizes(mesh);
   const Poll corners(task, 0.0, 0.02, mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -177,29 +190,8 @@ void check(const IntrinsicMesh& mesh, const Task& task) {
   check_longest(mesh);
 }
 
-/// Four times the area of a triangle. W. Kahan, "Miscalculating area and angles of a needle-like triangle".
-double four_areas(double a, double b, double c) {
-  if (a < b) std::swap(a, b);
-  if (a < c) std::swap(a, c);
-  if (b < c) std::swap(b, c);
-  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return std::sqrt(std::max(product, 0.0));
-}
-
-/// If the longest edge is longer than 2 to this power, or shorter than the inverse, hops have a separate unit. The
-/// number of vertices times 2^80 is still far below 2^128, where single precision ends.
-constexpr int kMostHopExponent = 80;
-
-/// Where more than one in so many faces has changed, building anew is no slower than patching.
-constexpr std::size_t kFacesPerChange = 4;
-
-/// Items that memory is asked for in advance.
-constexpr std::size_t kAhead = 8;
-
-}  // namespace
-
 GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
-  check(mesh, task);
+  check_mesh(mesh, task);
   renumber(mesh, task);
   faces_.resize(external_face_.size());
   std::vector<Triangle> corners;

@@ -19,6 +19,9 @@
 
 namespace seamwire::detail {
 
+/// Throws InvalidInput as the constructor of ExactGeodesics does; Cancelled. It takes the first tenth of the task.
+void check_mesh(const IntrinsicMesh& mesh, const Task& task);
+
 /// The mesh as the wavefront reads it: a triangle is one cache line, from which it is unfolded into the frame of each
 /// of its half-edges. Vertices and faces are renumbered breadth first, so that a front touches memory that lies
 /// together: they have an internal number here, and an external one in the IntrinsicMesh. All numbers are internal

@@ -20,6 +20,8 @@ constexpr std::uint32_t round_up_to_4(std::uint32_t n) { return (n + 3) & ~3U; }
 
 /// About how many multiplications are done between two looks at the task: some milliseconds.
 constexpr std::size_t kWorkBetweenLooks = std::size_t{1} << 23;
+/// About how many numbers of the factor a solve reads between two looks: a millisecond.
+constexpr std::size_t kNumbersBetweenLooks = std::size_t{1} << 19;
 
 std::vector<std::int32_t> minimum_degree_order(std::size_t vertex_count,
                                                std::span<const std::array<std::int32_t, 2>> edges, const Task& task) {
@@ -224,7 +226,8 @@ void BlockCholesky::lay_out() {
     node.panel = size;
     size += std::size_t{node.stride} * node.pivots;
   }
-  if (size > std::numeric_limits<std::uint32_t>::max()) throw InvalidInput("an island has too many triangles");
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw InvalidInput("the mesh has too many triangles for its linear system");
   values_.resize(size);
   places_.resize(rows_.size());
   // The most that the stack of updates holds: a node's own lies above those of its children until it has taken them.
@@ -347,7 +350,7 @@ bool BlockCholesky::factor(const Task& task) {
   return true;
 }
 
-void BlockCholesky::solve(std::span<double> right_side) const {
+void BlockCholesky::solve(std::span<double> right_side, const Task& task) const {
   const FrontKernels& kernels = cholesky_kernels().fastest();
   std::uint32_t most = 0;
   for (const Supernode& node : nodes_) most = std::max(most, node.stride);
@@ -365,7 +368,15 @@ void BlockCholesky::solve(std::span<double> right_side) const {
       below[1] = x[2 * index(rows_[i]) + 1];
     }
   };
+  std::size_t work = 0;
+  const auto look = [&](const Supernode& node) {
+    work += std::size_t{node.stride} * node.pivots;
+    if (work < kNumbersBetweenLooks) return;
+    work = 0;
+    task.check(0.0);
+  };
   for (const Supernode& node : nodes_) {
+    look(node);
     const double* panel = values_.data() + node.panel;
     gather(node);
     for (std::size_t j = 0; j < node.pivots; ++j) {
@@ -383,6 +394,7 @@ void BlockCholesky::solve(std::span<double> right_side) const {
   }
   for (std::size_t s = nodes_.size(); s-- > 0;) {
     const Supernode& node = nodes_[s];
+    look(node);
     const double* panel = values_.data() + node.panel;
     gather(node);
     kernels.subtract_transposed_times(front.data(), panel + node.pivot_rows, node.stride, node.update_rows(),

@@ -40,8 +40,9 @@ class SEAMWIRE_API BlockCholesky {
   /// Replaces the matrix by its factor. Returns false if the matrix is not positive definite. Throws Cancelled within
   /// some milliseconds.
   bool factor(const Task& task);
-  /// Solves for a right side of two numbers for each vertex, which the solution replaces.
-  void solve(std::span<double> right_side) const;
+  /// Solves for a right side of two numbers for each vertex, which the solution replaces. Throws Cancelled; the right
+  /// side is then unchanged.
+  void solve(std::span<double> right_side, const Task& task = {}) const;
 
   /// Numbers in the factor, zeros that were added for speed included.
   std::size_t factor_size() const { return values_.size(); }

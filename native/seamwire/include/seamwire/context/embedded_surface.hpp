@@ -15,6 +15,7 @@
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/geodesics/distance_method.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/geodesics/heat_geodesics.hpp"
 #include "seamwire/metric/metric_spec.hpp"
 #include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/closed_wires.hpp"
@@ -31,9 +32,9 @@ EmbeddedSurface embedded_in(const SurfaceContext& context, const MetricSpec& spe
                             const EmbedOptions& options, const Task& task);
 }  // namespace detail
 
-/// A surface in a metric: its embedding, the solver for geodesics on it, and the search for the caller's points on it.
+/// A surface in a metric: its embedding, the methods for distances on it, and the search for the caller's points on it.
 ///
-/// Solver and search are made when they are first needed. Immutable. Copies share the data, and any number of threads
+/// Methods and search are made when they are first needed. Immutable. Copies share the data, and any number of threads
 /// may use them at once. All points are points of the caller's surface.
 class SEAMWIRE_API EmbeddedSurface {
  public:
@@ -97,6 +98,10 @@ class SEAMWIRE_API EmbeddedSurface {
   ///
   /// \throws InvalidInput if the constructor of ExactGeodesics rejects the embedding
   const ExactGeodesics& geodesics(const Task& = {}) const;
+  /// Return the heat method on the embedding, for field() with a method.
+  ///
+  /// \throws InvalidInput if the constructor of HeatGeodesics rejects the embedding
+  const HeatGeodesics& heat(const Task& = {}) const;
   /// Return the search for points of the surface on the embedding.
   const EmbeddedPoints& points() const;
   /// Find a point of the surface on the embedding.

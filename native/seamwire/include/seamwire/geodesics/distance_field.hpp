@@ -33,7 +33,7 @@ struct IntrinsicPath {
   double length = std::numeric_limits<double>::infinity();  ///< sum of the lengths of the segments
 };
 
-/// What a method for distances has solved, from which a DistanceField is made.
+/// The result of a method for distances, from which a DistanceField is made.
 ///
 /// A method derives its own class from it, sets the members and implements the functions. Several threads may call the
 /// functions at once.
