@@ -922,14 +922,10 @@ class DistanceField:
     """int: the vertex that distances start from; -1 for several seeds, or a seed that is not a vertex."""
     radius: float
     """float: the distance at which the solver stopped, or inf. Larger distances are inf."""
-    method: str
-    """str: 'exact' or 'heat', the method that computed the distances."""
     distances: NDArray[np.float64]
     """(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no path reaches the vertex."""
     def trace(self, vertex: int, progress: Callable[[float], bool | None] | None = None) -> Wire:
-        """Trace the path from the seed to a vertex.
-
-        The path of an exact field is the shortest one. The path of a heat field is locally shortest.
+        """Trace the shortest path from the seed to a vertex.
 
         Parameters
         ----------
@@ -940,7 +936,7 @@ class DistanceField:
         Returns
         -------
         Wire
-            In an exact field, its length is the vertex's distance. It has no points if the vertex is unreachable.
+            Its length is the vertex's distance. It has no points if the vertex is unreachable.
 
         Raises
         ------
@@ -953,7 +949,7 @@ class DistanceField:
         vertices: ArrayLike,
         progress: Callable[[float], bool | None] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
-        """Trace the paths from the seed to several vertices, as `trace` does (Figure 1).
+        """Trace the shortest paths from the seed to several vertices (Figure 1).
 
         Parameters
         ----------
@@ -984,7 +980,7 @@ class DistanceField:
     ) -> float:
         """Compute the distance of any point of a face.
 
-        In an exact field, the distance is exact on the embedding. In a heat field, it is interpolated from the corners.
+        The distance is exact on the embedding. It is not interpolated from the vertices.
 
         Parameters
         ----------
@@ -1013,7 +1009,7 @@ class DistanceField:
         barycentric: ArrayLike,
         progress: Callable[[float], bool | None] | None = None,
     ) -> Wire:
-        """Trace the path from the nearest seed to any point of a face, as `trace` does.
+        """Trace the shortest path from the nearest seed to any point of a face.
 
         Parameters
         ----------
@@ -1086,28 +1082,23 @@ def distance_field(
     progress: Callable[[float], bool | None] | None = None,
     targets: int | tuple[int, ArrayLike] | Sequence[int | tuple[int, ArrayLike]] | None = None,
     max_distance: float | None = None,
-    method: Literal["exact", "heat"] = "exact",
 ) -> DistanceField:
     """Compute distances over an embedding from a point, or from the nearest of several points.
 
-    Distances are exact on the embedding, or approximated by the heat method.
+    Distances are exact on the embedding.
 
     Parameters
     ----------
     embedding : Embedding
-        The first call with each method builds a solver, and the embedding keeps it.
+        The first call builds a solver, and the embedding keeps it.
     seed : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like)
         A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
     progress : callable, optional
         Called repeatedly with the fraction done. Returning False cancels.
     targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
-        Stop when the distances and paths of these points are known. Other distances may be missing (inf). The heat method
-        does not stop.
+        Stop when the distances and paths of these points are known. Other distances may be missing (inf).
     max_distance : float, optional
         At least 0. Stop at this distance; larger distances are inf.
-    method : {'exact', 'heat'}
-        'exact' propagates windows. 'heat' solves two linear systems with matrices that the first call factors. Each
-        further call with any seeds then takes about the same time.
 
     Returns
     -------
@@ -1117,12 +1108,8 @@ def distance_field(
     ------
     ValueError
         If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if
-        max_distance or method is not valid.
+        max_distance is out of range.
     Cancelled
-
-    References
-    ----------
-    docs/method/heat.md.
     """
 
 class EdgeChain:

@@ -11,8 +11,10 @@
 
 #include "maps/dirichlet_kernels.hpp"
 #include "maps/symmetric_dirichlet.hpp"
+#include "numeric/block_cholesky.hpp"
 #include "same_bits.hpp"
 #include "shapes.hpp"
+#include "triangle_edges.hpp"
 
 namespace seamwire {
 

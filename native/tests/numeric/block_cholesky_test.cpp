@@ -14,20 +14,13 @@
 #include "same_bits.hpp"
 #include "seamwire/surface/types.hpp"
 #include "shapes.hpp"
+#include "triangle_edges.hpp"
 
 namespace seamwire {
 
 using namespace detail;
 
 namespace {
-
-std::vector<Edge> edges_of(const std::vector<Triangle>& triangles) {
-  std::vector<Edge> edges;
-  for (const Triangle& t : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) edges.push_back({t[i], t[(i + 1) % 3]});
-  }
-  return edges;
-}
 
 /// A random positive definite matrix on a mesh's graph, in the solver and dense.
 Eigen::MatrixXd fill(BlockCholesky& solver, const shapes::Mesh& mesh, std::mt19937& random) {

@@ -97,7 +97,7 @@ TEST(Triangulation, CutsLargerPolygonsWithDents) {
       std::vector<Vector> points;
       for (const Eigen::Vector2d& p : shape) points.push_back(turn * Vector(p.x(), p.y(), 0));
       for (std::size_t start = 0; start < points.size(); start += 5) {
-        std::ranges::rotate(points, points.begin() + 1);
+        std::rotate(points.begin(), points.begin() + 1, points.end());
         const auto [sum, least] = areas_of(points, turn * Vector::UnitZ());
         EXPECT_NEAR(sum, area, 1e-9);
         EXPECT_GT(least, 0.0);

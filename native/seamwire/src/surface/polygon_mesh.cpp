@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "seamwire/surface/triangulate.hpp"
 #include "surface/check_polygons.hpp"
@@ -22,8 +24,7 @@ std::vector<Edge> polygon_edges(const PolygonMesh& mesh) {
     corner += size;
   }
   std::ranges::sort(edges);
-  const auto repeated = std::ranges::unique(edges);
-  edges.erase(repeated.begin(), repeated.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
