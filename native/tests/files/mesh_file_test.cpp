@@ -198,7 +198,8 @@ TEST_F(MeshFile, ErrorsNameTheLine) {
 TEST_F(MeshFile, ErrorsNameTheElementOfBinaryFiles) {
   write_mesh(at("a.ply"), example(true));
   std::string bytes = content("a.ply");
-  EXPECT_EQ(said("a.ply", bytes.substr(0, bytes.size() - 1)), "a.ply, face 3: list vertex_indices is longer than the file");
+  EXPECT_EQ(said("a.ply", bytes.substr(0, bytes.size() - 1)),
+            "a.ply, face 3: list vertex_indices is longer than the file");
   EXPECT_EQ(said("a.ply", bytes.substr(0, bytes.size() - 21)), "a.ply, face 3: the file ends here");
   bytes[bytes.size() - 1] = 1;
   EXPECT_EQ(said("a.ply", bytes), "a.ply, face 3: there is no vertex 16777221 among 7");
