@@ -922,10 +922,14 @@ class DistanceField:
     """int: the vertex that distances start from; -1 for several seeds, or a seed that is not a vertex."""
     radius: float
     """float: the distance at which the solver stopped, or inf. Larger distances are inf."""
+    method: str
+    """str: 'exact' or 'heat', the method that computed the distances."""
     distances: NDArray[np.float64]
     """(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no path reaches the vertex."""
-    def trace(self, vertex: int, progress: Callable[[float], bool | None] | None = None) -> Wire:
-        """Trace the shortest path from the seed to a vertex.
+    def trace(self, vertex: int, progress: Callable[[float], bool | None] | None = None) -> Wire | None:
+        """Trace the path from the seed to a vertex.
+
+        The path of an exact field is the shortest one. The path of a heat field is locally shortest.
 
         Parameters
         ----------
@@ -935,8 +939,8 @@ class DistanceField:
 
         Returns
         -------
-        Wire
-            Its length is the vertex's distance. It has no points if the vertex is unreachable.
+        Wire or None
+            In an exact field, its length is the vertex's distance. None if the vertex is unreachable.
 
         Raises
         ------
@@ -949,7 +953,7 @@ class DistanceField:
         vertices: ArrayLike,
         progress: Callable[[float], bool | None] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
-        """Trace the shortest paths from the seed to several vertices (Figure 1).
+        """Trace the paths from the seed to several vertices, as `trace` does (Figure 1).
 
         Parameters
         ----------
@@ -980,7 +984,7 @@ class DistanceField:
     ) -> float:
         """Compute the distance of any point of a face.
 
-        The distance is exact on the embedding. It is not interpolated from the vertices.
+        In an exact field, the distance is exact on the embedding. In a heat field, it is interpolated from the corners.
 
         Parameters
         ----------
@@ -1008,8 +1012,8 @@ class DistanceField:
         face: int,
         barycentric: ArrayLike,
         progress: Callable[[float], bool | None] | None = None,
-    ) -> Wire:
-        """Trace the shortest path from the nearest seed to any point of a face.
+    ) -> Wire | None:
+        """Trace the path from the nearest seed to any point of a face, as `trace` does.
 
         Parameters
         ----------
@@ -1018,7 +1022,7 @@ class DistanceField:
 
         Returns
         -------
-        Wire
+        Wire or None
             As from `trace`. The number of an end that is not a vertex is -1.
 
         Raises
@@ -1082,23 +1086,28 @@ def distance_field(
     progress: Callable[[float], bool | None] | None = None,
     targets: int | tuple[int, ArrayLike] | Sequence[int | tuple[int, ArrayLike]] | None = None,
     max_distance: float | None = None,
+    method: Literal["exact", "heat"] = "exact",
 ) -> DistanceField:
     """Compute distances over an embedding from a point, or from the nearest of several points.
 
-    Distances are exact on the embedding.
+    Distances are exact on the embedding, or approximated by the heat method.
 
     Parameters
     ----------
     embedding : Embedding
-        The first call builds a solver, and the embedding keeps it.
+        The first call with each method builds a solver, and the embedding keeps it.
     seed : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like)
         A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
     progress : callable, optional
         Called repeatedly with the fraction done. Returning False cancels.
     targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
-        Stop when the distances and paths of these points are known. Other distances may be missing (inf).
+        Stop when the distances and paths of these points are known. Other distances may be missing (inf). The heat method
+        does not stop.
     max_distance : float, optional
         At least 0. Stop at this distance; larger distances are inf.
+    method : {'exact', 'heat'}
+        'exact' propagates windows. 'heat' solves two linear systems with matrices that the first call factors. Each
+        further call with any seeds then takes about the same time.
 
     Returns
     -------
@@ -1108,17 +1117,21 @@ def distance_field(
     ------
     ValueError
         If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if
-        max_distance is out of range.
+        max_distance or method is not valid.
     Cancelled
+
+    References
+    ----------
+    docs/method/heat.md.
     """
 
 class EdgeChain:
     """A chain of edges."""
 
     vertices: NDArray[np.int32]
-    """(p,) int32: the vertices in order, including picked edges. Empty if there is no chain."""
+    """(p,) int32: the vertices in order, including picked edges. Empty if a live wire has no chain."""
     length: float
-    """float: lengths in the metric plus the cost of turning. inf if there is no chain."""
+    """float: lengths in the metric plus the cost of turning. inf if a live wire has no chain."""
 
 class EdgeLoop:
     """A run of edges straight through a mesh."""
@@ -1139,7 +1152,7 @@ class FittedChain:
 class EdgeWires:
     """The cheapest chains of edges from a vertex or an edge."""
 
-    def trace(self, target: int | tuple[int, int]) -> EdgeChain:
+    def trace(self, target: int | tuple[int, int]) -> EdgeChain | None:
         """Trace the cheapest chain to a vertex, or to an edge (a, b).
 
         Parameters
@@ -1148,8 +1161,8 @@ class EdgeWires:
 
         Returns
         -------
-        EdgeChain
-            Includes both picks.
+        EdgeChain or None
+            Includes both picks. None if there is no chain.
 
         Raises
         ------
@@ -1203,7 +1216,7 @@ def shortest_cycle(
     edge: tuple[int, int],
     turning: float = 20.0,
     progress: Callable[[float], bool | None] | None = None,
-) -> EdgeChain:
+) -> EdgeChain | None:
     """Find the cheapest closed chain through an edge.
 
     Parameters
@@ -1219,8 +1232,8 @@ def shortest_cycle(
 
     Returns
     -------
-    EdgeChain
-        Does not repeat its first vertex. Empty if there is no closed chain.
+    EdgeChain or None
+        Does not repeat its first vertex. None if there is no closed chain.
 
     Raises
     ------
@@ -2426,6 +2439,8 @@ def flatten(
     straighten: float | None = None,
     up: ArrayLike | None = None,
     edges: ArrayLike | None = None,
+    max_steps: int = 100,
+    tolerance: float = 1e-06,
     progress: Callable[[float], bool | None] | None = None,
 ) -> Flattening:
     """Map each island of a surface to the plane.
@@ -2457,6 +2472,10 @@ def flatten(
     edges : (e, 2) array_like of int, optional
         The real edges, if the triangles come from polygons. The map is continuous across all other edges of triangles. None:
         every edge of a triangle is real.
+    max_steps : int
+        The largest number of Newton steps of one solve, 0 or more. An island may be solved several times.
+    tolerance : float
+        The predicted decrease of the mean energy below which an island is finished, 0 or more.
     progress : callable, optional
         Called repeatedly with the fraction done. Returning False cancels.
 
@@ -2468,7 +2487,7 @@ def flatten(
     ------
     ValueError
         If an array has the wrong shape or type, a number is not finite, a vertex is out of range, there is no edge, or
-        `straighten` is negative. Also if an island cannot be mapped.
+        `straighten`, `max_steps` or `tolerance` is negative. Also if an island cannot be mapped.
     Cancelled
     """
 
