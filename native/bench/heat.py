@@ -3,7 +3,7 @@
 
     python native/bench/heat.py MESH... [--anisotropy A] [--repeats N] [--seeds N]
 
-MESH is an OBJ or OFF file, or a folder of them. Needs seamwire_core on the path. Where potpourri3d can be imported, its heat method runs
+MESH is a mesh file, or a folder of them. Needs seamwire_core on the path. Where potpourri3d can be imported, its heat method runs
 too, in the Euclidean metric. It gets the same triangles and seeds, and one thread.
 
 Prints a row of a Markdown table for each mesh and metric. Times are processor time: to prepare a method on an embedding, and the median

@@ -4,12 +4,20 @@
 #include <memory>
 
 #include "mesh.hpp"
+#include "seamwire/surface/segments.hpp"
 #include "seamwire_uv/parts/part_finder.hpp"
+#include "seamwire_uv/seams/missing_cuts.hpp"
 #include "seamwire_uv/seams/seam_planner.hpp"
 
 using namespace seamwire;
 
 int main() {
+  //! [missing]
+  const auto [closed, closed_triangles] = torus();
+  const Surface uncut(closed, closed_triangles);
+  std::printf("%d cuts\n", missing_cuts(uncut, {}, face_segments(uncut, {}))[0]);
+  //! [missing]
+
   //! [parts]
   const auto [body, body_triangles] = torus();
   const PartFinder finder(std::make_shared<const Surface>(body, body_triangles));

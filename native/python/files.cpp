@@ -31,7 +31,7 @@ Held<PolygonMesh> make_polygon_mesh(const py::object& points, const py::object& 
                    .sizes = numbers_from(sizes, "sizes"),
                    .colors = {}};
   if (!colors.is_none()) mesh.colors = points_from(colors, "colors");
-  without_gil([&] { polygon_edges(mesh); });  // which checks it
+  without_gil([&] { check(mesh); });
   return make_held<PolygonMesh>(std::move(mesh));
 }
 
@@ -59,7 +59,7 @@ Raises
 ------
 ValueError
     If an array has the wrong shape or type, a vertex is out of range, a size is less than 3, or the sizes do not add up to
-    the number of corners.
+    the number of corners. Also if there are colors for another number of points.
 )")
       .def(py::init(&make_polygon_mesh), py::arg("points"), py::arg("corners"), py::arg("sizes"),
            py::arg("colors") = py::none())
@@ -129,7 +129,7 @@ path : str or path-like
 Returns
 -------
 PolygonMesh
-    With the colors of vertices if an OBJ, PLY or COFF file has them.
+    With the colors of vertices if an OBJ, PLY or COFF file has them, as they are in the file.
 
 Raises
 ------
@@ -141,7 +141,8 @@ FileError
              R"(Write a mesh to an OBJ, PLY, STL or OFF file.
 
 The ending of its name tells the format. PLY and STL files are binary. STL files have triangles in single precision and no
-colors. All others have double precision. An existing file is replaced once the new one is complete.
+colors. All others have double precision. Colors in PLY files have 8 bits. An existing file is replaced once the new one is
+complete.
 
 Parameters
 ----------
@@ -153,7 +154,7 @@ Raises
 FileError
     If the format is unknown, or the file cannot be written.
 ValueError
-    If there are colors for another number of vertices.
+    If a point is not finite, or too large for single precision in an STL file.
 )");
   module.def("write_lines", &lines_to_file, py::arg("path"), py::arg("lines"),
              R"(Write polylines, such as the points of wires, to an OBJ file.
@@ -186,7 +187,7 @@ void bind_triangulate(py::module_& module) {
   module.def("triangulate", &triangles_of, py::arg("points"), py::arg("corners"), py::arg("sizes"),
              R"(Cut polygons into triangles.
 
-Quads are cut as in Blender: from the first corner to the third, unless one of the two triangles would lie on the other.
+Quads are cut as in Blender: from the first corner to the third, unless one of the two triangles would lie on the other, or have no area.
 Larger polygons may have dents.
 
 Parameters

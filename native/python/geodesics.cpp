@@ -158,7 +158,8 @@ void bind_points_of_faces(FieldClass& field) {
   field.def("distance", &distance_to, py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
             R"(Compute the distance of any point of a face.
 
-In an exact field, the distance is exact on the embedding. In a heat field, it is interpolated from the corners.
+In an exact field, the distance is exact on the embedding. In a heat field, it is
+interpolated from the corners, or straight on the face of a seed.
 
 Parameters
 ----------

@@ -112,7 +112,7 @@ class PolygonMesh:
     ------
     ValueError
         If an array has the wrong shape or type, a vertex is out of range, a size is less than 3, or the sizes do not add up to
-        the number of corners.
+        the number of corners. Also if there are colors for another number of points.
     """
 
     def __init__(
@@ -164,7 +164,7 @@ def read_mesh(path: str | PathLike[str]) -> PolygonMesh:
     Returns
     -------
     PolygonMesh
-        With the colors of vertices if an OBJ, PLY or COFF file has them.
+        With the colors of vertices if an OBJ, PLY or COFF file has them, as they are in the file.
 
     Raises
     ------
@@ -177,7 +177,8 @@ def write_mesh(path: str | PathLike[str], mesh: PolygonMesh) -> None:
     """Write a mesh to an OBJ, PLY, STL or OFF file.
 
     The ending of its name tells the format. PLY and STL files are binary. STL files have triangles in single precision and no
-    colors. All others have double precision. An existing file is replaced once the new one is complete.
+    colors. All others have double precision. Colors in PLY files have 8 bits. An existing file is replaced once the new one is
+    complete.
 
     Parameters
     ----------
@@ -189,7 +190,7 @@ def write_mesh(path: str | PathLike[str], mesh: PolygonMesh) -> None:
     FileError
         If the format is unknown, or the file cannot be written.
     ValueError
-        If there are colors for another number of vertices.
+        If a point is not finite, or too large for single precision in an STL file.
     """
 
 def write_lines(path: str | PathLike[str], lines: Sequence[ArrayLike]) -> None:
@@ -213,7 +214,7 @@ def write_lines(path: str | PathLike[str], lines: Sequence[ArrayLike]) -> None:
 def triangulate(points: ArrayLike, corners: ArrayLike, sizes: ArrayLike) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Cut polygons into triangles.
 
-    Quads are cut as in Blender: from the first corner to the third, unless one of the two triangles would lie on the other.
+    Quads are cut as in Blender: from the first corner to the third, unless one of the two triangles would lie on the other, or have no area.
     Larger polygons may have dents.
 
     Parameters
@@ -984,7 +985,8 @@ class DistanceField:
     ) -> float:
         """Compute the distance of any point of a face.
 
-        In an exact field, the distance is exact on the embedding. In a heat field, it is interpolated from the corners.
+        In an exact field, the distance is exact on the embedding. In a heat field, it is
+        interpolated from the corners, or straight on the face of a seed.
 
         Parameters
         ----------

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,12 +21,13 @@ void connect(Surface surface, int start, int end) {
   const Strength strength{.max_anisotropy = 20.0, .clamp_percentile = 99.0};
   for (const MetricSpec& metric : {MetricSpec::euclidean(), MetricSpec::feature(Follow::kMin, strength)}) {
     const EmbeddedSurface embedded(context, metric, {.max_error = 0.01});
-    const Wire wire = embedded.field(start).trace(end).value();
+    const std::optional<Wire> wire = embedded.field(start).trace(end);
+    if (!wire) throw std::runtime_error("no path connects the two vertices");
     const double scale = embedded.surface().scale();
     std::printf("%s: %.3f long, %.3f in the metric, distances are off by about %.1f %% on average\n",
-                info_of(metric.family).name.data(), wire.euclidean_length / scale, wire.length / scale,
+                info_of(metric.family).name.data(), wire->euclidean_length / scale, wire->length / scale,
                 100.0 * embedded.embedding().resolution->estimated_error);
-    lines.push_back(wire.points);
+    lines.push_back(wire->points);
   }
   write_lines("geodesics.obj", lines);
 }

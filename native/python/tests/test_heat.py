@@ -105,3 +105,20 @@ def test_progress_rises_and_cancels(large: sw.Surface) -> None:
     sw.distance_field(embedding, 0, method="heat", progress=fractions.append)
     assert fractions == sorted(fractions)
     assert 0.5 <= fractions[-1] <= 1.0
+
+
+def test_a_nearer_seed_counts_beside_one_in_the_same_face() -> None:
+    points, triangles = meshes.grid(20)
+    surface = sw.Surface(points, triangles)
+    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    # One seed in a corner of a long face, and one at its far end.
+    face = len(triangles) // 2
+    corner = int(triangles[face][2])
+    near_corner = [0.02, 0.02, 0.96]
+    exact, heat = (
+        sw.distance_field(embedding, [(face, [0.96, 0.02, 0.02]), corner], method=method)
+        for method in ("exact", "heat")
+    )
+    side = np.linalg.norm(points[triangles[face][0]] - points[corner])
+    assert exact.distance(face, near_corner) < 0.1 * side * surface.scale
+    assert heat.distance(face, near_corner) < 0.2 * side * surface.scale

@@ -53,7 +53,9 @@ def test_errors_are_those_of_files(tmp_path: Path) -> None:
     with pytest.raises(sw.FileError, match=r"cannot be written"):
         sw.write_mesh(tmp_path / "no" / "a.obj", sw.PolygonMesh(POINTS, CORNERS, SIZES))
     with pytest.raises(ValueError, match=r"^colors: there are 2 for 5 points"):
-        sw.write_mesh(tmp_path / "a.obj", sw.PolygonMesh(POINTS, CORNERS, SIZES, COLORS[:2]))
+        sw.PolygonMesh(POINTS, CORNERS, SIZES, COLORS[:2])
+    with pytest.raises(ValueError, match=r"^points: vertex 1 is not finite"):
+        sw.write_mesh(tmp_path / "a.obj", sw.PolygonMesh([(0, 0, 0), (0, np.nan, 0), (1, 0, 0)], [0, 1, 2], [3]))
     with pytest.raises(TypeError):
         sw.read_mesh(7)
 

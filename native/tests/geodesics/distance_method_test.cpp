@@ -138,7 +138,7 @@ TEST(DistanceMethod, RefusesWhatNoMethodCanSolve) {
     EXPECT_EQ(message_of([&] { method->solve(std::array{SurfacePoint(0)}, {.max_distance = -1.0, .targets = {}}); }),
               "max_distance is -1, not 0 or more");
   }
-  EXPECT_EQ(message_of([] { DistanceField(nullptr); }), "solved: there is none");
+  EXPECT_EQ(message_of([] { DistanceField(nullptr); }), "solved: must not be null");
   const EmbeddedSurface embedded = embedded_torus();
   EXPECT_EQ(message_of([&] { embedded.field(edges, std::array{SurfacePoint(0)}); }),
             "the field is of another embedding: it has 16 vertices, the embedding 960 vertices and 1920 triangles");

@@ -106,6 +106,23 @@ TEST(Triangulation, CutsLargerPolygonsWithDents) {
   }
 }
 
+TEST(Triangulation, CutsPolygonsWithAHoleThatAnEdgeJoins) {
+  // A square with a square hole. The border goes to the hole and back along one edge, as in files of CAD programs.
+  const std::vector<Vector> points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},
+                                      {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}};
+  const Numbers border = {0, 1, 2, 3, 0, 4, 5, 6, 7, 4};
+  const Triangulation cut = triangulate(points, border, Numbers{10});
+  ASSERT_EQ(cut.triangles.size(), 8);
+  double sum = 0;
+  for (const auto& [a, b, c] : cut.triangles) {
+    const auto at = [&](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
+    const double area = 0.5 * (at(b) - at(a)).cross(at(c) - at(a)).z();
+    EXPECT_GT(area, 0.0);
+    sum += area;
+  }
+  EXPECT_NEAR(sum, 12.0, 1e-12);
+}
+
 TEST(Triangulation, CutsAnyPolygonIntoTrianglesEvenOneThatCrossesItself) {
   const std::vector<Vector> bow = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}, {-1, 1, 0}};
   EXPECT_EQ(triangulate(bow, Numbers{0, 1, 2, 3, 4}, Numbers{5}).triangles.size(), 3);

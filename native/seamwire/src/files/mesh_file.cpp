@@ -12,7 +12,6 @@
 #include "files/formats.hpp"
 #include "files/text.hpp"
 #include "seamwire/errors.hpp"
-#include "surface/check_polygons.hpp"
 
 namespace seamwire {
 namespace {
@@ -45,12 +44,24 @@ const Format& format_of(const std::filesystem::path& path) {
   throw FileError(name_of(path) + ": the name must end in .obj, .ply, .stl or .off");
 }
 
-/// Writes a file beside the one that it then replaces, so that an error leaves that as it was.
-void replace(const std::filesystem::path& path, const std::string& bytes) {
-  std::filesystem::path part = path;
-  part += ".part";
+/// A name beside a file that no other file has.
+std::filesystem::path unused_name(const std::filesystem::path& path) {
+  for (int i = 0;; ++i) {
+    std::filesystem::path name = path;
+    name += ".part" + std::to_string(i);
+    std::error_code error;
+    if (!std::filesystem::exists(name, error)) return name;
+  }
+}
+
+/// Writes a new file, which then replaces the one at `given`. An error does not change that one.
+void replace(const std::filesystem::path& given, const std::string& bytes) {
+  std::error_code unknown;
+  std::filesystem::path path = std::filesystem::weakly_canonical(given, unknown);  // what a link points to
+  if (unknown) path = given;
+  const std::filesystem::path part = unused_name(path);
   std::ofstream file(part, std::ios::binary);
-  if (!file) throw FileError(name_of(path) + ": the file cannot be written");
+  if (!file) throw FileError(name_of(given) + ": the file cannot be written");
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   std::error_code error;
@@ -58,7 +69,7 @@ void replace(const std::filesystem::path& path, const std::string& bytes) {
   if (file && !error) return;
   std::error_code ignored;
   std::filesystem::remove(part, ignored);
-  throw FileError(name_of(path) + ": the file cannot be written" + (error ? ": " + error.message() : ""));
+  throw FileError(name_of(given) + ": the file cannot be written" + (error ? ": " + error.message() : ""));
 }
 
 }  // namespace
@@ -69,7 +80,9 @@ PolygonMesh read_mesh(const std::filesystem::path& path) {
   std::error_code error;
   if (!file || std::filesystem::is_directory(path, error))
     throw FileError(name_of(path) + ": the file cannot be opened");
-  std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
+  const std::streamoff size = file.tellg();
+  if (size < 0) throw FileError(name_of(path) + ": the file cannot be read");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
   file.seekg(0);
   if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
     throw FileError(name_of(path) + ": the file cannot be read");
@@ -79,10 +92,9 @@ PolygonMesh read_mesh(const std::filesystem::path& path) {
 
 void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh) {
   const Format& format = format_of(path);
-  detail::check_polygons(mesh.points.size(), mesh.corners, mesh.sizes);
-  if (!mesh.colors.empty() && mesh.colors.size() != mesh.points.size()) {
-    throw InvalidInput("colors: there are " + std::to_string(mesh.colors.size()) + " for " +
-                       std::to_string(mesh.points.size()) + " points");
+  check(mesh);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (!mesh.points[v].allFinite()) throw InvalidInput("points: vertex " + std::to_string(v) + " is not finite");
   }
   replace(path, format.write(mesh));
 }

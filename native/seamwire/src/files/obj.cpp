@@ -13,12 +13,10 @@ PolygonMesh read_obj(const std::string& name, std::string_view file) {
   while (lines.next()) {
     const std::string_view kind = lines.words().front();
     if (kind == "v") {
-      // x y z, then optionally w, then optionally a color.
+      // x y z, then optionally w, or a color with or without alpha.
       const std::vector<double>& given = lines.numbers(1, 3);
       mesh.points.emplace_back(given[0], given[1], given[2]);
-      if (const std::size_t count = given.size(); count >= 6) {
-        mesh.colors.emplace_back(given[count - 3], given[count - 2], given[count - 1]);
-      }
+      if (given.size() >= 6) mesh.colors.emplace_back(given[3], given[4], given[5]);
     } else if (kind == "f") {
       const auto count = static_cast<std::int64_t>(mesh.points.size());
       if (lines.words().size() < 4) lines.fail("a face needs 3 corners");

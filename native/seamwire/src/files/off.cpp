@@ -12,6 +12,7 @@ namespace {
 /// What the first word says of each vertex: [ST][C][N]OFF.
 struct Layout {
   bool texture = false, color = false, normal = false;
+  std::string_view joined;  ///< the number of vertices, if it follows without a space
 };
 
 /// Reads the first word, if it is one of these. Throws FileError for points in other than three dimensions.
@@ -25,15 +26,12 @@ Layout layout_of(const TextLines& lines, std::string_view word) {
   layout.texture = take("ST");
   layout.color = take("C");
   layout.normal = take("N");
-  if (word != "OFF") lines.fail("'" + std::string(lines.words().front()) + "' is not OFF, COFF, NOFF or the like");
+  if (take("OFF") && (word.empty() || integer_from(word))) {
+    layout.joined = word;
+  } else {
+    lines.fail("'" + std::string(lines.words().front()) + "' is not OFF, COFF, NOFF or the like");
+  }
   return layout;
-}
-
-/// The color after the coordinates and the normal of a vertex: integers up to 255, or numbers up to 1.
-Vector color_of(const TextLines& lines, const std::vector<double>& numbers, std::size_t first) {
-  bool integers = true;
-  for (std::size_t i = 0; i < 3; ++i) integers = integers && integer_from(lines.words()[first + i]).has_value();
-  return Vector(numbers[first], numbers[first + 1], numbers[first + 2]) / (integers ? 255.0 : 1.0);
 }
 
 }  // namespace
@@ -42,14 +40,15 @@ PolygonMesh read_off(const std::string& name, std::string_view file) {
   TextLines lines(name, file, TextSyntax::kComments);
   lines.need("its first word");
   const Layout layout = layout_of(lines, lines.words().front());
-  std::size_t first = 1;
-  if (lines.words().size() == 1) {
+  std::size_t first = layout.joined.empty() ? 1 : 0;
+  if (first == 1 && lines.words().size() == 1) {
     lines.need("the numbers of vertices and faces");
     first = 0;
-  } else if (lines.words()[1] == "BINARY") {
+  } else if (first == 1 && lines.words()[1] == "BINARY") {
     lines.fail("binary OFF files cannot be read");
   }
-  const std::int64_t vertices = lines.integer(first), faces = lines.integer(first + 1);
+  const std::int64_t vertices = layout.joined.empty() ? lines.integer(first) : *integer_from(layout.joined);
+  const std::int64_t faces = lines.integer(first + 1);
   if (std::min(vertices, faces) < 0) lines.fail("a number of elements is negative");
 
   PolygonMesh mesh;
@@ -58,7 +57,13 @@ PolygonMesh read_off(const std::string& name, std::string_view file) {
     lines.need("vertex " + std::to_string(v) + " of " + std::to_string(vertices));
     const std::vector<double>& given = lines.numbers(0, before + (layout.color ? 3 : 0));
     mesh.points.emplace_back(given[0], given[1], given[2]);
-    if (layout.color) mesh.colors.push_back(color_of(lines, given, before));
+    if (!layout.color) continue;
+    mesh.colors.emplace_back(given[before], given[before + 1], given[before + 2]);
+  }
+  // Colors are numbers up to 255, or up to 1. Some programs write 1.0 as 1, so whether they are integers does not tell.
+  const auto is_above_one = [](const Vector& color) { return color.maxCoeff() > 1.0; };
+  if (std::ranges::any_of(mesh.colors, is_above_one)) {
+    for (Vector& color : mesh.colors) color /= 255.0;
   }
   for (std::int64_t f = 0; f < faces; ++f) {
     lines.need("face " + std::to_string(f) + " of " + std::to_string(faces));
@@ -85,10 +90,9 @@ std::string write_off(const PolygonMesh& mesh) {
     append_number(text += ' ', p.y());
     append_number(text += ' ', p.z());
     if (!mesh.colors.empty()) {
-      // 1 would be an integer, of 255.
       for (const double x : mesh.colors[v]) {
         append_number(text += ' ', x);
-        if (x == 0.0 || x == 1.0) text += ".0";
+        if (x == 0.0 || x == 1.0) text += ".0";  // some programs read 1 as 1 / 255
       }
       text += " 1.0";
     }

@@ -71,7 +71,7 @@ const Type* type_from(const TextLines& lines, std::size_t word) {
   for (const Type& type : kTypes) {
     if (lines.words()[word] == type.name || lines.words()[word] == type.sized_name) return &type;
   }
-  lines.fail("'" + std::string(lines.words()[word]) + "' is no type of PLY");
+  lines.fail("'" + std::string(lines.words()[word]) + "' is not a type of PLY");
 }
 
 /// Reads a line of the header that describes a property.
@@ -100,7 +100,7 @@ Header read_header(TextLines& lines) {
   } else if (words[1] == "binary_big_endian") {
     header.binary = std::endian::big;
   } else if (words[1] != "ascii") {
-    lines.fail("'" + std::string(words[1]) + "' is no format of PLY");
+    lines.fail("'" + std::string(words[1]) + "' is not a format of PLY");
   }
   for (lines.need("end_header"); words.front() != "end_header"; lines.need("end_header")) {
     if (words[0] == "element") {
@@ -111,7 +111,7 @@ Header read_header(TextLines& lines) {
       if (header.elements.empty()) lines.fail("a property comes before the first element");
       header.elements.back().properties.push_back(property_from(lines));
     } else if (words[0] != "comment" && words[0] != "obj_info") {
-      lines.fail("'" + std::string(words[0]) + "' is no word of a header");
+      lines.fail("'" + std::string(words[0]) + "' does not belong into a header");
     }
   }
   return header;
@@ -123,7 +123,7 @@ class Values {
   Values(std::string name, TextLines& lines, std::optional<std::endian> binary)
       : name_(std::move(name)), lines_(lines), bytes_(lines.rest()), binary_(binary) {}
 
-  /// Reads element `number`, of which the values of property p then are at(p).
+  /// Reads element `number`. Then at(p) has the values of its property p.
   void read(const Element& element, std::int64_t number) {
     element_ = &element;
     number_ = number;
@@ -136,11 +136,13 @@ class Values {
       std::size_t count = 1;
       if (property.count != nullptr) {
         const double given = next(*property.count);
-        if (!(given >= 0)) fail("the length of list " + property.name + " is negative");
-        count = static_cast<std::size_t>(given);
-        if (count > (binary_ ? bytes_.size() / property.type->bytes : lines_.words().size())) {
+        if (!(given >= 0 && given == std::floor(given)))
+          fail("the length of list " + property.name + " is not 0, 1, 2, ...");
+        const std::size_t most = binary_ ? bytes_.size() / property.type->bytes : lines_.words().size();
+        if (given > static_cast<double>(most)) {
           fail("list " + property.name + " is longer than the " + (binary_ ? "file" : "line"));
         }
+        count = static_cast<std::size_t>(given);
       }
       for (std::size_t i = 0; i < count; ++i) values_[p].push_back(next(*property.type));
     }
@@ -219,8 +221,9 @@ void read_faces(const Element& element, Values& values, PolygonMesh& mesh) {
     if (corners.size() < 3) values.fail("a face needs 3 corners");
     for (const double v : corners) {
       if (!(v >= 0 && v < static_cast<double>(mesh.points.size()) && v == std::floor(v))) {
-        values.fail("there is no vertex " + std::to_string(static_cast<std::int64_t>(std::isfinite(v) ? v : -1)) +
-                    " among " + std::to_string(mesh.points.size()));
+        std::string number;
+        append_number(number, v);
+        values.fail("there is no vertex " + number + " among " + std::to_string(mesh.points.size()));
       }
       mesh.corners.push_back(static_cast<std::int32_t>(v));
     }
@@ -245,7 +248,7 @@ PolygonMesh read_ply(const std::string& name, std::string_view file) {
       read_faces(element, values, mesh);
     } else if (element.name == "tristrips" && element.count > 0) {
       throw FileError(name + ": triangle strips cannot be read");
-    } else {
+    } else if (!header.binary || !element.properties.empty()) {
       for (std::int64_t i = 0; i < element.count; ++i) values.read(element, i);
     }
   }

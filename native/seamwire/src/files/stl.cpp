@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <unordered_map>
 
@@ -8,6 +10,7 @@
 #include "files/bytes.hpp"
 #include "files/formats.hpp"
 #include "files/text.hpp"
+#include "seamwire/errors.hpp"
 #include "seamwire/files/mesh_file.hpp"
 #include "seamwire/surface/triangulate.hpp"
 
@@ -45,13 +48,24 @@ class Corners {
   std::unordered_map<std::array<double, 3>, std::int32_t, HashOfPoint> vertices_;
 };
 
+std::string lower(std::string_view word) {
+  std::string own(word);
+  for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return own;
+}
+
+bool begins_with_solid(std::string_view file) {
+  const std::size_t begin = file.find_first_not_of(" \t\r\n");
+  return begin != std::string_view::npos && lower(file.substr(begin, 5)) == "solid";
+}
+
 PolygonMesh read_text(const std::string& name, std::string_view file) {
   TextLines lines(name, file, TextSyntax::kWords);
   Corners corners;
   std::size_t in_loop = 0;
   bool ended = false;
   while (lines.next()) {
-    const std::string_view kind = lines.words().front();
+    const std::string kind = lower(lines.words().front());
     if (kind == "vertex") {
       const std::vector<double>& given = lines.numbers(1, 3);
       if (++in_loop > 3) lines.fail("a facet has more than 3 corners");
@@ -62,26 +76,34 @@ PolygonMesh read_text(const std::string& name, std::string_view file) {
     } else if (kind == "endsolid") {
       ended = true;
     } else if (kind != "solid" && kind != "facet" && kind != "outer" && kind != "endfacet") {
-      lines.fail("'" + std::string(kind) + "' is no word of an STL file");
+      lines.fail("'" + kind + "' does not belong into an STL file");
     }
   }
   if (in_loop != 0 || !ended) throw FileError(name + ": the file ends before endsolid");
   return std::move(corners).mesh();
 }
 
+/// A coordinate in the precision of the file. Throws InvalidInput if it is too large for that.
+float single(double x) {
+  if (std::abs(x) > std::numeric_limits<float>::max()) {
+    throw InvalidInput("points: a coordinate is too large for single precision, which STL files have");
+  }
+  return static_cast<float>(x);
+}
+
 }  // namespace
 
 PolygonMesh read_stl(const std::string& name, std::string_view file) {
-  // Binary files may begin with "solid" too, so their size decides.
+  // Binary files may begin with "solid" too. The number at that place of a text is larger than any file has room for.
   const std::size_t start = kHeader + sizeof(std::uint32_t);
   const std::size_t count =
       file.size() < start ? 0 : number_at<std::uint32_t>(file.data() + kHeader, std::endian::little);
-  if (file.size() < start || file.size() != start + count * kTriangle) {
-    if (file.starts_with("solid")) return read_text(name, file);
+  if (file.size() < start + count * kTriangle) {
+    if (begins_with_solid(file)) return read_text(name, file);
     if (file.size() < start)
       throw FileError(name + ": the file ends within its first " + std::to_string(start) + " bytes");
-    throw FileError(name + ": the file has room for " + std::to_string((file.size() - start) / kTriangle) +
-                    " triangles, but counts " + std::to_string(count));
+    throw FileError(name + ": the file ends within triangle " + std::to_string((file.size() - start) / kTriangle) +
+                    " of " + std::to_string(count));
   }
   Corners corners;
   for (std::size_t t = 0; t < count; ++t) {
@@ -107,9 +129,9 @@ std::string write_stl(const PolygonMesh& mesh) {
   append_bytes(bytes, static_cast<std::uint32_t>(cut.triangles.size()));
   for (const Triangle& triangle : cut.triangles) {
     const auto at = [&](std::size_t i) -> const Vector& { return mesh.points[index(triangle[i])]; };
-    const Vector normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+    const Vector normal = (at(1) - at(0)).stableNormalized().cross((at(2) - at(0)).stableNormalized()).normalized();
     for (const Vector& p : {normal, at(0), at(1), at(2)}) {
-      for (const double x : p) append_bytes(bytes, static_cast<float>(x));
+      for (const double x : p) append_bytes(bytes, single(x));
     }
     append_bytes(bytes, std::uint16_t{0});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files/text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +22,12 @@
 
 namespace seamwire::detail {
 namespace {
+
+/// Whether a line of an OBJ file is a vertex or a face. Names of files may end with a backslash.
+bool can_be_joined(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  return line.substr(begin, 2) == "v " || line.substr(begin, 2) == "f ";
+}
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -51,7 +58,7 @@ std::optional<double> number_from(std::string_view word) {
   const std::size_t e = word.find_first_of("eE");
   return e != std::string_view::npos && word.substr(e).find('-') != std::string_view::npos ? 0.0 : HUGE_VAL;
 #else
-  // Hexadecimal numbers are none of these formats'.
+  // These formats have no hexadecimal numbers.
   if (word.find_first_of("xX") != std::string_view::npos) return std::nullopt;
   const std::string own(word);
   char* end = nullptr;
@@ -74,14 +81,16 @@ void append_number(std::string& text, double number) {
   text.append(std::begin(digits), std::to_chars(std::begin(digits), std::end(digits), number).ptr);
 #else
   std::array<char, 40> digits{};
+  std::string own;
   for (const int precision : {15, 16, 17}) {
     std::snprintf(digits.data(), digits.size(), "%.*g", precision, number);
-    for (char& c : digits) {
-      if (c == ',') c = '.';  // the locale's
-    }
-    if (number_from(digits.data()) == number) break;
+    own = digits.data();
+    // The locale's decimal point may have several bytes.
+    const std::size_t point = own.find_first_not_of("0123456789+-einfa");
+    if (point != std::string::npos) own.replace(point, own.find_first_of("0123456789", point) - point, ".");
+    if (number_from(own) == number) break;
   }
-  text += digits.data();
+  text += own;
 #endif
 }
 
@@ -89,15 +98,16 @@ bool TextLines::next() {
   while (!rest_.empty()) {
     number_ = next_number_;
     const auto take = [&] {
-      const std::size_t end = rest_.find('\n');
+      const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
       std::string_view line = rest_.substr(0, end);
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+      rest_.remove_prefix(end);
+      rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(rest_.size(), 1));
       ++next_number_;
       while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
       return syntax_ == TextSyntax::kWords ? line : line.substr(0, line.find('#'));
     };
     std::string_view line = take();
-    if (syntax_ == TextSyntax::kCommentsAndJoinedLines && line.ends_with('\\')) {
+    if (syntax_ == TextSyntax::kCommentsAndJoinedLines && line.ends_with('\\') && can_be_joined(line)) {
       joined_.clear();
       while (line.ends_with('\\') && !rest_.empty()) {
         joined_.append(line.substr(0, line.size() - 1)).push_back(' ');

@@ -20,7 +20,7 @@ std::optional<std::int64_t> integer_from(std::string_view word);
 /// Appends the shortest text that number_from() reads as this number.
 void append_number(std::string& text, double number);
 
-/// The parts of a text besides words: comments after #, and lines that a backslash at their end joins with the next.
+/// Whether a text has comments after #, and lines that a backslash at their end joins with the next, besides words.
 enum class TextSyntax { kWords, kComments, kCommentsAndJoinedLines };
 
 /// The lines of a text as words.
@@ -28,7 +28,9 @@ class TextLines {
  public:
   /// `name` is that of the file in messages.
   TextLines(std::string name, std::string_view text, TextSyntax syntax)
-      : name_(std::move(name)), rest_(text), syntax_(syntax) {}
+      : name_(std::move(name)), rest_(text), syntax_(syntax) {
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);  // UTF-8's byte order mark
+  }
 
   /// Moves to the next line that has words. Returns whether there is one.
   bool next();

@@ -140,7 +140,8 @@ class Walker {
     is_done_ = true;
   }
 
-  /// The path has come to a vertex. Where that is not lower than all before, it goes on along edges to one that is.
+  /// The path has come to a vertex. If the vertex is not the lowest one so far, the path goes on along edges to a lower
+  /// one.
   void arrive(std::int32_t vertex) {
     faces_in_a_row_ = 0;
     at_vertex_ = vertex;

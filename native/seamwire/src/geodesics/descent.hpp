@@ -79,7 +79,8 @@ inline Point2 between(const WalkedMesh::Corners& corners, const std::array<doubl
 ///
 /// `values` has a value for each vertex, infinite where no end can be reached; the path then has no points. The path
 /// goes straight to an end that is on the same face. At a vertex that is lower than all around it, it follows edges to
-/// the nearest lower one. Each vertex of the path is lower than the one before, so the path ends. Throws Cancelled.
+/// the nearest lower one. Such detours apart, each vertex of the path is lower than the one before, so the path ends.
+/// Throws Cancelled.
 IntrinsicPath descend(const WalkedMesh& mesh, const std::vector<double>& values, const PathEnds& ends,
                       const PlacedPoint& from, const Task& task);
 

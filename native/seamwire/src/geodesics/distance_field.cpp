@@ -15,7 +15,7 @@ SolvedField::~SolvedField() = default;
 DistanceMethod::~DistanceMethod() = default;
 
 DistanceField::DistanceField(std::shared_ptr<const SolvedField> solved) : solved_(std::move(solved)) {
-  if (!solved_) throw InvalidInput("solved: there is none");
+  if (!solved_) throw InvalidInput("solved: must not be null");
 }
 
 std::int32_t DistanceField::seed() const {

@@ -38,9 +38,9 @@ struct HeatGeodesics::Prepared {
 
 namespace {
 
-/// A path is shortened so often at most, ...
+/// The largest number of rounds in which a path is shortened.
 constexpr int kMostRounds = 20;
-/// ... and only while it gets shorter by this part of its length.
+/// Rounds end once one of them shortens the path by less than this part of its length.
 constexpr double kLeastGain = 1e-3;
 
 SurfacePoint surface_point(const PathPoint& point) {
@@ -116,7 +116,8 @@ class HeatGeodesics::Solved final : public SolvedField {
       const std::int32_t v = prepared_->mesh.mesh().triangles[static_cast<std::size_t>(face)][i];
       if (weights[i] > 0) value += weights[i] * complete()[static_cast<std::size_t>(v)];
     }
-    least = least < kInfinity ? least : value;
+    // The straight line to a source of the same face is better than what is interpolated, unless another is nearer.
+    if (least == kInfinity || sources.size() > 1) least = std::min(least, value);
     return least > radius ? kInfinity : least;
   }
 

@@ -30,8 +30,8 @@ namespace {
 constexpr double kSamePlace = 1e-5;
 /// Heat at the sources: 2 to this power. It leaves room for products with lengths.
 constexpr int kHeatExponent = 900;
-/// Heat falls by a factor of e within the root of the time. So from the sources to the smallest number, at 2^-1022, it
-/// gets at least this many roots far, with some to spare.
+/// Heat falls by a factor of e within the root of the time. It is above the smallest number, 2^-1022, within this many
+/// roots of the sources.
 constexpr double kMostRoots = 1300.0;
 
 template <class T>
@@ -239,7 +239,8 @@ std::vector<double> HeatSystem::distances(std::span<const HeatSource> sources, c
     const double lowest = shift[component_of_[unknown]];
     distances[v] = lowest == kInfinity ? kInfinity : unit_ * std::max(potential[unknown] - lowest, 0.0);
   }
-  // Around a source in a face, its own straight lines are exact, unless another source is nearer.
+  // Around a source in a face, straight lines in the face are better, unless another source is nearer. They are exact
+  // except where a vertex has so small an angle that a way around it is shorter.
   for (const HeatSource& source : sources) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t v = source.vertices[i];

@@ -53,7 +53,7 @@ LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task&
 LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target,
                                 const Task& task);
 
-/// The wire of a field to a target; without points if no wire leads there. Throws Cancelled.
+/// The wire of a field to a target; nullopt if no wire leads there. Throws Cancelled.
 std::optional<Wire> wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task);
 
 /// The candidate of a solution to a target; without points if no wire leads there. It is not marked as final. Throws

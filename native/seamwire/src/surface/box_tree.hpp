@@ -18,7 +18,7 @@ using Box = Eigen::AlignedBox3d;
 
 /// A tree of boxes around items, such as triangles, points, or the segments of a line.
 struct BoxTree {
-  /// Its items, where they are few; else two nodes that hold them, side by side.
+  /// A node holds a few items, or two nodes that follow each other in `nodes`.
   struct Node {
     Box box;
     std::int32_t first = 0;  ///< in `order`, or in `nodes` where `count` is 0
@@ -30,7 +30,7 @@ struct BoxTree {
   static constexpr double kRounded = 1.0 - 1e-12;
 
   std::vector<std::int32_t> order;  ///< the items, node by node; those with an empty box are left out
-  std::vector<Node> nodes;          ///< the first one holds all; none: there are no items
+  std::vector<Node> nodes;          ///< the first node holds all items; empty without items
 
   /// Builds it for `count` items. It parts items in halves by the middles of their boxes, along the axis on which these
   /// lie farthest apart. `box_of(i)`: the box of an item. `goes_on()` is asked now and then, and ends the building by
@@ -76,7 +76,7 @@ struct BoxTree {
 
   /// Calls visit(i, least) for the items order[i] that may be near a place: those in boxes whose squared distance times
   /// `rounded` is no more than `least`, which `visit` may lower. Nearer boxes come first. `rounded`: kRounded, or 1 if
-  /// no item in a box counts that is nearer than the box by rounding.
+  /// items may be missed that are nearer than their box by rounding.
   template <class Visit>
   void visit_near(const Vector& place, double least, double rounded, const Visit& visit) const {
     struct Waiting {

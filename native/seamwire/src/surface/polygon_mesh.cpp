@@ -3,16 +3,25 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "seamwire/errors.hpp"
 #include "seamwire/surface/triangulate.hpp"
 #include "surface/check_polygons.hpp"
 
 namespace seamwire {
 
-std::vector<Edge> polygon_edges(const PolygonMesh& mesh) {
+void check(const PolygonMesh& mesh) {
   detail::check_polygons(mesh.points.size(), mesh.corners, mesh.sizes);
+  if (mesh.colors.empty() || mesh.colors.size() == mesh.points.size()) return;
+  throw InvalidInput("colors: there are " + std::to_string(mesh.colors.size()) + " for " +
+                     std::to_string(mesh.points.size()) + " points");
+}
+
+std::vector<Edge> polygon_edges(const PolygonMesh& mesh) {
+  check(mesh);
   std::vector<Edge> edges;
   edges.reserve(mesh.corners.size());
   const std::int32_t* corner = mesh.corners.data();

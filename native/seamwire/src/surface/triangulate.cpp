@@ -16,8 +16,8 @@ using namespace detail;
 
 namespace {
 
-/// How near to its longest side a triangle's corner is where the triangle has no area, as part of that side: vertices
-/// are placed on edges in single precision.
+/// A triangle counts as one without an area if it is lower than this part of its longest side: vertices are placed on
+/// edges in single precision.
 constexpr double kFlat = 1e-4;
 
 /// Whether a quad abcd can be cut from a to c, into abc and acd: neither lies on the other, nor has no area.
@@ -38,8 +38,8 @@ double area_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The corners of a polygon in a plane that it is seen counterclockwise in: the plane of two axes that is nearest to
-/// that of the polygon, which Newell's normal gives.
+/// The corners of a polygon, projected to the plane of two axes that is nearest to the polygon's plane (Newell's
+/// normal). They run counterclockwise.
 std::vector<Eigen::Vector2d> in_plane(std::span<const Vector> points, std::span<const std::int32_t> corners) {
   Vector normal = Vector::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -58,26 +58,34 @@ std::vector<Eigen::Vector2d> in_plane(std::span<const Vector> points, std::span<
 }
 
 /// Cuts a polygon into triangles by taking away one convex corner after another that contains no other corner
-/// (Meisters, "Polygons have ears", 1975). Where rounding or a polygon that crosses itself leaves no such corner, it
-/// takes the next one.
+/// (Meisters, "Polygons have ears", 1975). Corners at the place of one of its corners do not count, because a polygon
+/// with a hole passes twice along the edge that joins the hole. If rounding or a polygon that crosses itself leaves no
+/// such corner, the next one is taken.
 void cut_ears(std::span<const Vector> points, std::span<const std::int32_t> corners, std::vector<Triangle>& triangles) {
   const std::vector<Eigen::Vector2d> at = in_plane(points, corners);
   std::vector<std::size_t> left(corners.size());
   std::iota(left.begin(), left.end(), std::size_t{0});
   const auto is_ear = [&](std::size_t before, std::size_t i, std::size_t after) {
-    if (area_of(at[before], at[i], at[after]) <= 0) return false;
+    const Eigen::Vector2d &a = at[before], &b = at[i], &c = at[after];
+    if (area_of(a, b, c) <= 0) return false;
     return std::ranges::none_of(left, [&](std::size_t other) {
-      return other != before && other != i && other != after && area_of(at[before], at[i], at[other]) >= 0 &&
-             area_of(at[i], at[after], at[other]) >= 0 && area_of(at[after], at[before], at[other]) >= 0;
+      const Eigen::Vector2d& p = at[other];
+      return p != a && p != b && p != c && area_of(a, b, p) >= 0 && area_of(b, c, p) >= 0 && area_of(c, a, p) >= 0;
     });
   };
+  // The search goes on where the last ear was cut.
+  std::size_t ear = 1;
   while (left.size() > 3) {
-    std::size_t ear = 1;
-    while (ear <= left.size() && !is_ear(left[ear - 1], left[ear % left.size()], left[(ear + 1) % left.size()])) ++ear;
-    if (ear > left.size()) ear = 1;
-    triangles.push_back(
-        {corners[left[ear - 1]], corners[left[ear % left.size()]], corners[left[(ear + 1) % left.size()]]});
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear % left.size()));
+    const std::size_t count = left.size();
+    const auto corner = [&](std::size_t i) { return left[i % count]; };
+    std::size_t tried = 0;
+    while (tried < count && !is_ear(corner(ear + count - 1), corner(ear), corner(ear + 1))) {
+      ++ear;
+      ++tried;
+    }
+    ear %= count;
+    triangles.push_back({corners[corner(ear + count - 1)], corners[corner(ear)], corners[corner(ear + 1)]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   triangles.push_back({corners[left[0]], corners[left[1]], corners[left[2]]});
 }

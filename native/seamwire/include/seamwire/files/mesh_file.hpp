@@ -38,14 +38,14 @@ SEAMWIRE_API PolygonMesh read_mesh(const std::filesystem::path& path);
 /// Write a mesh to an OBJ, PLY, STL or OFF file. The ending of its name tells the format.
 ///
 /// PLY and STL files are binary. PLY and text files have coordinates in double precision, which read_mesh() reads back
-/// without a change. STL files have triangles in single precision and no colors. An existing file is replaced once the
-/// new one is complete.
+/// without a change. Colors in PLY files have 8 bits. STL files have triangles in single precision and no colors. An
+/// existing file is replaced once the new one is complete.
 ///
 /// \param path the file
 /// \param mesh the mesh
 /// \throws FileError if the format is unknown, or the file cannot be written
-/// \throws InvalidInput if a vertex is out of range, the sizes do not add up to the number of corners, a size is less
-///   than 3, or there are colors for another number of vertices
+/// \throws InvalidInput if check() rejects the mesh, a point is not finite, or it is too large for single precision in
+///   an STL file
 SEAMWIRE_API void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh);
 
 /// Write polylines, such as the points of wires, to an OBJ file. The file can be opened beside the mesh.

@@ -106,7 +106,8 @@ class SEAMWIRE_API DistanceField {
   /// about proportional to the number of triangles that the path crosses.
   ///
   /// \param point a point of the mesh
-  /// \returns the path, without points if the point is unreachable or beyond radius()
+  /// \returns the path. It has no points if the point is unreachable or beyond radius(). EmbeddedField::trace() returns
+  ///   nullopt then.
   /// \throws InvalidInput if distance() rejects the point
   IntrinsicPath trace(const SurfacePoint& point, const Task& = {}) const;
 

@@ -20,9 +20,11 @@ namespace seamwire {
 /// is of the order of the mean edge length. docs/benchmarks/exactness.md has numbers.
 ///
 /// - Heat flows over intrinsic Delaunay triangles, which the constructor makes by flipping edges. Vertices stay.
-/// - The distance of a point in a face is interpolated from the corners of the face.
+/// - The distance of a point in a face is interpolated from the corners of the face. On the face of a source it is the
+///   straight one, or the smaller one of both if there are several sources.
 /// - Paths descend the distance, and are then shortened. They are real paths with their true length, which is not the
-///   distance. They are locally shortest, and never shorter than the geodesic. The first path prepares more.
+///   distance. They are the shortest ones in the triangles around them, and never shorter than the geodesic. The first
+///   path prepares more.
 /// - SolveOptions::targets do not shorten a solve. Beyond SolveOptions::max_distance, distances are infinite.
 ///
 /// Copies share the matrices.
@@ -34,7 +36,8 @@ class SEAMWIRE_API HeatGeodesics final : public DistanceMethod {
   /// Prepare a mesh.
   ///
   /// \param mesh a mesh that ExactGeodesics accepts
-  /// \throws InvalidInput if the constructor of ExactGeodesics rejects the mesh, or the mesh has too many triangles
+  /// \throws InvalidInput if the constructor of ExactGeodesics rejects the mesh, the mesh has too many
+  ///   triangles, or its lengths differ too much for the matrices
   explicit HeatGeodesics(const IntrinsicMesh& mesh, const Task& = {});
 
   /// Return how many edges were flipped to make the triangles Delaunay.

@@ -20,12 +20,18 @@ struct PolygonMesh {
   std::vector<Vector> colors;         ///< red, green and blue of each vertex, in [0, 1]; empty without colors
 };
 
+/// Check that the arrays of a mesh fit together.
+///
+/// \param mesh the mesh
+/// \throws InvalidInput if a vertex is out of range, a size is less than 3, the sizes do not add up to the number of
+///   corners, or there are colors for another number of points
+SEAMWIRE_API void check(const PolygonMesh& mesh);
+
 /// List the edges of polygons.
 ///
 /// \param mesh the mesh
 /// \returns each edge once, the smaller vertex first, in ascending order. An edge from a vertex to itself is left out.
-/// \throws InvalidInput if a vertex is out of range, a size is less than 3, or the sizes do not add up to the number of
-///   corners
+/// \throws InvalidInput if check() rejects the mesh
 SEAMWIRE_API std::vector<Edge> polygon_edges(const PolygonMesh& mesh);
 
 /// Build the surface of a polygon mesh.

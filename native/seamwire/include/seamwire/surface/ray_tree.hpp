@@ -48,9 +48,7 @@ class SEAMWIRE_API RayTree {
 
   /// Return whether the tree is built.
   bool ready() const;
-  /// Wait until the tree is built, or until there is not enough memory for it.
-  ///
-  /// \param task cancellation; the reported fraction stays 0
+  /// Wait until the tree is built, or until there is not enough memory for it. The reported fraction stays 0.
   void wait(const Task& = {}) const;
 
  private:
