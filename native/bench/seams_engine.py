@@ -61,15 +61,15 @@ class SeamwireEngine:
         fields = [sw.edge_wires(self.surface, m, seed, turning=self.turning, forward=forward) for m in self.metrics]
         offered = []
         for target in targets:
-            chains = sorted((field.trace(target) for field in fields), key=lambda chain: chain.length)
-            offered.append([list(chain.vertices) for chain in chains if len(chain.vertices)])
+            found = [chain for field in fields if (chain := field.trace(target)) is not None]
+            offered.append([list(chain.vertices) for chain in sorted(found, key=lambda chain: chain.length)])
         return offered
 
     def loop(self, edge: tuple[int, int]) -> list[int] | None:
         """Offer the closed chain that one click on the edge takes, its first vertex not repeated."""
         chains = [sw.shortest_cycle(self.surface, m, edge, turning=self.loop_turning) for m in self.metrics]
         best = min((c for c in chains if c is not None), key=lambda chain: chain.length, default=None)
-        return list(best.vertices) if best is not None and len(best.vertices) else None
+        return None if best is None else list(best.vertices)
 
     def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> tuple[list[int], bool]:
         """Offer the straight strip through the edge up to stops: its vertices, and whether it is closed."""
