@@ -35,7 +35,7 @@ Held<PolygonMesh> make_polygon_mesh(const py::object& points, const py::object& 
   return make_held<PolygonMesh>(std::move(mesh));
 }
 
-std::shared_ptr<SurfaceObject> surface_of(const PolygonMesh& mesh, const py::object& progress) {
+std::shared_ptr<SurfaceObject> surface_of_polygons(const PolygonMesh& mesh, const py::object& progress) {
   return Watch(progress).run([&](const Task& task) {
     return std::shared_ptr<SurfaceObject>(
         make_held<SurfaceObject>(std::make_shared<const Surface>(make_surface(mesh, task))));
@@ -75,7 +75,7 @@ ValueError
             return mesh.colors.empty() ? py::object(py::none()) : py::object(view(mesh.colors, self));
           },
           "(n, 3) float64 or None: red, green and blue of each vertex, in [0, 1].")
-      .def("surface", &surface_of, py::arg("progress") = py::none(), R"(Build the surface of the mesh.
+      .def("surface", &surface_of_polygons, py::arg("progress") = py::none(), R"(Build the surface of the mesh.
 
 Its triangles are those of `triangulate`, and its edges those of the polygons, without diagonals.
 

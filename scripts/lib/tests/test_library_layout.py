@@ -76,3 +76,19 @@ def test_every_room_has_files_and_no_name_is_in_both_libraries() -> None:
     there = {(library_of(path), path.parent.name) for path in FILES}
     assert there - {(library, library) for library in ROOMS} == set(ORDER)
     assert len({room for _, room in ORDER}) == len(ORDER)
+
+
+def test_functions_of_the_module_have_names_of_their_own() -> None:
+    """Packages compile all sources of the module as one. Overloads of a name in a header are meant."""
+    folder = NATIVE / "python"
+    headers = "\n".join(path.read_text(encoding="utf-8") for path in folder.glob("*.hpp"))
+    definition = re.compile(
+        r"^(?!return |else |using |namespace |struct |class |template)[A-Za-z_][\w:<>,&* ]* [*&]?(\w+)\(", re.M
+    )
+    sources: dict[str, set[str]] = {}
+    for path in folder.glob("*.cpp"):
+        for name in definition.findall(path.read_text(encoding="utf-8")):
+            sources.setdefault(name, set()).add(path.name)
+    assert len(sources) > 100
+    twice = {name: files for name, files in sources.items() if len(files) > 1}
+    assert {name: files for name, files in twice.items() if not re.search(rf"\b{name}\(", headers)} == {}
