@@ -119,7 +119,7 @@ void lines_to_file(const std::filesystem::path& path, const py::object& lines) {
 void bind_file_functions(py::module_& module) {
   module.def("read_mesh", &mesh_from_file, py::arg("path"), R"(Read a mesh from an OBJ, PLY, STL or OFF file.
 
-The ending of its name tells the format. Coordinates have the precision of the file, whatever the locale is. Texture
+The ending of its name tells the format. Coordinates have the precision of the file. The locale does not matter. Texture
 coordinates, normals, materials, groups and lines are ignored. Corners of STL files with the same coordinates become one vertex.
 
 Parameters

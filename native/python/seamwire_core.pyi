@@ -154,7 +154,7 @@ class PolygonMesh:
 def read_mesh(path: str | PathLike[str]) -> PolygonMesh:
     """Read a mesh from an OBJ, PLY, STL or OFF file.
 
-    The ending of its name tells the format. Coordinates have the precision of the file, whatever the locale is. Texture
+    The ending of its name tells the format. Coordinates have the precision of the file. The locale does not matter. Texture
     coordinates, normals, materials, groups and lines are ignored. Corners of STL files with the same coordinates become one vertex.
 
     Parameters

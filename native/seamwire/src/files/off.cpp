@@ -9,7 +9,7 @@
 namespace seamwire::detail {
 namespace {
 
-/// What the first word says of each vertex: [ST][C][N]OFF.
+/// The data of each vertex, as the first word of the file names them: [ST][C][N]OFF.
 struct Layout {
   bool texture = false, color = false, normal = false;
   std::string_view joined;  ///< the number of vertices, if it follows without a space

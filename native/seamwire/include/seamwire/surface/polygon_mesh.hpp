@@ -23,8 +23,9 @@ struct PolygonMesh {
 /// Check that the arrays of a mesh fit together.
 ///
 /// \param mesh the mesh
-/// \throws InvalidInput if a vertex is out of range, a size is less than 3, the sizes do not add up to the number of
-///   corners, or there are colors for another number of points
+/// \throws InvalidInput if a vertex is out of range, a size is less than 3, or the sizes do not add up to the number of
+///   corners
+/// \throws InvalidInput if there are colors for another number of points
 SEAMWIRE_API void check(const PolygonMesh& mesh);
 
 /// List the edges of polygons.
