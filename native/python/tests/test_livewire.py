@@ -298,7 +298,7 @@ def test_a_wire_to_a_spike_is_there_at_once() -> None:
         wire = live.wires((0, (part, part, 1 - 2 * part))).wires[0]
         took.append(time.thread_time() - begin)
         assert wire.length == pytest.approx(2 * part * np.sqrt(1.13), rel=1e-6)
-    assert min(took) < 5e-3, "seconds of the processor"
+    assert np.median(took) < 5e-3, "seconds of the processor"
 
 
 def test_a_fork_has_a_seed_of_its_own(surface: sw.Surface) -> None:

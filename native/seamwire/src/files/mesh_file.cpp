@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "files/formats.hpp"
-#include "files/text.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire {
@@ -101,23 +100,7 @@ void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh) {
 
 void write_lines(const std::filesystem::path& path, std::span<const std::vector<Vector>> lines) {
   if (format_of(path).ending != ".obj") throw FileError(name_of(path) + ": the name must end in .obj");
-  std::string text;
-  std::size_t count = 0;
-  for (const std::vector<Vector>& line : lines) {
-    for (const Vector& p : line) {
-      text += 'v';
-      for (const double x : p) detail::append_number(text += ' ', x);
-      text += '\n';
-    }
-    if (line.size() > 1) {
-      text += 'l';
-      for (std::size_t i = 0; i < line.size(); ++i) (text += ' ') += std::to_string(++count);
-      text += '\n';
-    } else {
-      count += line.size();
-    }
-  }
-  replace(path, text);
+  replace(path, detail::write_obj_lines(lines));
 }
 
 }  // namespace seamwire

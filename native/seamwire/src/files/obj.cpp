@@ -38,14 +38,20 @@ PolygonMesh read_obj(const std::string& name, std::string_view file) {
   return mesh;
 }
 
+namespace {
+
+/// Appends numbers, each after a space.
+void append_numbers(std::string& text, const Vector& numbers) {
+  for (const double x : numbers) append_number(text += ' ', x);
+}
+
+}  // namespace
+
 std::string write_obj(const PolygonMesh& mesh) {
   std::string text;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    text += 'v';
-    for (const double x : mesh.points[v]) append_number(text += ' ', x);
-    if (!mesh.colors.empty()) {
-      for (const double x : mesh.colors[v]) append_number(text += ' ', x);
-    }
+    append_numbers(text += 'v', mesh.points[v]);
+    if (!mesh.colors.empty()) append_numbers(text, mesh.colors[v]);
     text += '\n';
   }
   const std::int32_t* corner = mesh.corners.data();
@@ -53,6 +59,24 @@ std::string write_obj(const PolygonMesh& mesh) {
     text += 'f';
     for (std::int32_t i = 0; i < size; ++i) (text += ' ') += std::to_string(*corner++ + 1);
     text += '\n';
+  }
+  return text;
+}
+
+std::string write_obj_lines(std::span<const std::vector<Vector>> lines) {
+  std::string text;
+  std::size_t count = 0;
+  for (const std::vector<Vector>& line : lines) {
+    for (const Vector& p : line) {
+      append_numbers(text += 'v', p);
+      text += '\n';
+    }
+    if (line.size() > 1) {
+      text += 'l';
+      for (std::size_t i = 1; i <= line.size(); ++i) (text += ' ') += std::to_string(count + i);
+      text += '\n';
+    }
+    count += line.size();
   }
   return text;
 }

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
-#include "graph/minimum_cut.hpp"
+#include "parts/minimum_cut.hpp"
 #include "slits/slit_tree.hpp"
 #include "tuning/constants.hpp"
 

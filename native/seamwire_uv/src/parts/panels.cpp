@@ -12,7 +12,7 @@
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "graph/disjoint_sets.hpp"
-#include "graph/minimum_cut.hpp"
+#include "parts/minimum_cut.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "tuning/constants.hpp"
 

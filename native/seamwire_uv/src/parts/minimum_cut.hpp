@@ -5,13 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "seamwire/api.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
 /// A network of nodes joined by links that can be cut for a price.
-class SEAMWIRE_API MinimumCut {
+class MinimumCut {
  public:
   explicit MinimumCut(std::size_t nodes) : first_(nodes, -1) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "graph/minimum_cut.hpp"
+#include "parts/minimum_cut.hpp"
 
 #include <algorithm>
 
