@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the add-on says without its compiled part, and what enabling it reads."""
 
-import os
-import subprocess
 import sys
 from pathlib import Path
 
-import bpy
 import pytest
+from fresh import run_fresh
 from scene import ADDON, add_grid, edit, mark_wires, seams
 from seamwire.mesh import registration
 
@@ -29,38 +27,24 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
 
 
 def test_enabling_and_drawing_the_header_read_neither_numpy_nor_the_compiled_part() -> None:
-    if not bpy.app.binary_path:
-        pytest.skip("Blender as a Python module cannot be started again")
-    code = f"""
-import sys, addon_utils, bpy
+    output = run_fresh(f"""
+import sys, bpy
 before = set(sys.modules)
-assert addon_utils.enable({ADDON!r}) is not None
+enable({ADDON!r})
 assert sys.modules[{ADDON!r} + ".mesh.settings"].settings().along == "AUTO"
 assert sys.modules[{ADDON!r} + ".ui.toolbar"].along_of(bpy.context) == "EDGES"
 print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modules) - before)))
-"""
-    command = [
-        bpy.app.binary_path,
-        "--background",
-        "--factory-startup",
-        "--python-exit-code",
-        "3",
-        "--python-expr",
-        code,
-    ]
-    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
+""")
     read = next(line for line in output.splitlines() if line.startswith("Read:"))
     assert "numpy" not in read, "it takes longer than all else, and Blender's start would wait"
     assert "seamwire_core" not in read
 
 
 def test_enabling_with_an_option_of_the_command_line_writes_no_preferences(tmp_path: Path) -> None:
-    if not bpy.app.binary_path:
-        pytest.skip("Blender as a Python module cannot be started again")
     if ADDON.startswith("bl_ext."):
         pytest.skip("another Blender that disables an extension removes its wheels from under this one")
     code = f"""
-import addon_utils, bpy, sys
+import bpy, sys
 assert {ADDON!r} not in bpy.context.preferences.addons
 settings = sys.modules[{ADDON!r} + ".mesh.settings"]
 print("Set:", settings.settings().along, settings.preferences().line_width)
@@ -71,12 +55,7 @@ addon_utils.disable({ADDON!r}, default_set=True)
 addon_utils.enable({ADDON!r}, default_set=True)
 assert settings.preferences() == bpy.context.preferences.addons[{ADDON!r}].preferences
 """
-    environment = {**os.environ, "BLENDER_USER_CONFIG": str(tmp_path)}
-    command = [bpy.app.binary_path, "--background", "--factory-startup", "--addons", ADDON, "--python-exit-code", "3"]
-    done = subprocess.run(
-        [*command, "--python-expr", code], capture_output=True, text=True, timeout=120, env=environment
-    )
-    assert "Set: AUTO 1.0" in done.stdout and done.returncode == 0, done.stdout + done.stderr
+    assert "Set: AUTO 1.0" in run_fresh(code, "--addons", ADDON, BLENDER_USER_CONFIG=str(tmp_path))
     stored = (tmp_path / "userpref.blend").read_bytes()
     assert ADDON.encode() not in stored, "nothing but settings of Blender"
 

@@ -4,6 +4,7 @@
 import csv
 import json
 import shlex
+import shutil
 import stat
 import sys
 from pathlib import Path
@@ -83,6 +84,20 @@ def test_files_come_out_with_seams_islands_and_uvs(network: Path, tmp_path: Path
     uvs = np.empty(2 * len(mesh.loops), dtype=np.float32)
     mesh.uv_layers.active.data.foreach_get("uv", uvs)
     assert np.ptp(uvs) > 0.5
+
+
+@pytest.mark.every_blender
+@pytest.mark.skipif(not ADDON.startswith("bl_ext."), reason="only extensions have wheels")
+def test_nothing_is_installed_where_the_blenders_of_the_user_look(
+    network: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    installed = tmp_path / "extensions" / "user_default"
+    shutil.copytree(Path(sys.modules["seamwire"].__file__).parents[1], installed)
+    monkeypatch.setenv("BLENDER_USER_EXTENSIONS", str(tmp_path / "extensions"))
+    export(tmp_path, ["a.blend"])
+    code, rows = run(tmp_path, "--network", str(network), "--no-pictures")
+    assert code == 0, rows
+    assert not (tmp_path / "extensions" / ".local").exists()
 
 
 def test_what_crashes_hangs_or_is_damaged_costs_itself_alone(network: Path, tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Iterator
 
@@ -11,6 +10,7 @@ import addon_utils
 import bpy
 import pytest
 import traces
+from fresh import run_fresh
 from scene import ADDON
 from seamwire.ui import companions
 
@@ -113,25 +113,13 @@ def test_after_an_update_of_the_tool_it_uses_the_new_one(name: str, monkeypatch:
 
 
 def test_enabling_it_does_not_read_numpy(name: str) -> None:
-    if not bpy.app.binary_path:
-        pytest.skip("Blender as a Python module cannot be started again")
-    code = f"""
-import addon_utils, sys
+    output = run_fresh(f"""
+import sys
 loaded = set(sys.modules)
 for name in {(name, ADDON)!r}:
-    assert addon_utils.enable(name) is not None
+    enable(name)
 print("Read:", *sorted(set(sys.modules) - loaded))
-"""
-    command = [
-        bpy.app.binary_path,
-        "--background",
-        "--factory-startup",
-        "--python-exit-code",
-        "3",
-        "--python-expr",
-        code,
-    ]
-    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
+""")
     read = next(line for line in output.splitlines() if line.startswith("Read:"))
     assert f"{name}.{sys.modules[name].SEAMWIRE_PARTS[-1]}" in read
     assert "numpy" not in read, "Blender's start would wait for it"
