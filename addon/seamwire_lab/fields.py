@@ -366,7 +366,7 @@ class FieldMaker:
         return self._once(
             "embedding",
             request.metric_key,
-            lambda: self._core.embed(self.surface(), metric, progress=self._go_on),
+            lambda: self._core.embed(self.surface(), metric, progress=self._go_on, max_error=0),
         )
 
     def _field(self, request: FieldRequest) -> seamwire_core.DistanceField:

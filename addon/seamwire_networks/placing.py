@@ -457,7 +457,7 @@ def _distances(shape: Shape, vertices: NDArray[np.int64], progress: Progress) ->
     parts = iter([within(progress, *step) for step in itertools.pairwise(steps)])
     surface = core.Surface(shape.places, shape.triangles, shape.edges, progress=next(parts))
     metric = core.make_metric(surface, core.MetricSpec("euclidean"), progress=next(parts))
-    flat = core.embed(surface, metric, progress=next(parts))
+    flat = core.embed(surface, metric, progress=next(parts), max_error=0)
     # Several pairs at one vertex, and pairs on separate parts, each count.
     fields = [core.distance_field(flat, int(vertex), progress=next(parts)) for vertex in vertices]
     return np.stack([field.distances / surface.scale for field in fields], axis=1)

@@ -106,7 +106,7 @@ class Detection:
     def _paths(self, kind: str, **strength: float) -> Paths:
         model = self.model
         sources, targets = (spread(model.points, count)[0] for count in (SOURCES, TARGETS))
-        return shortest_paths(model.core, model.embed(model.metric(kind, **strength), kind), sources, targets)
+        return shortest_paths(model.core, model.embed(model.metric(kind, **strength)), sources, targets)
 
     @cached_property
     def paths(self) -> Paths:

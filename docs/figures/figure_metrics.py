@@ -115,7 +115,7 @@ def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
     strength = np.where(sign * smoothed.k1 > 0.0, model.strength, 0.0)
     strong = np.flatnonzero(strength >= np.percentile(strength[strength > 0.0], 90))
     ends = strong[spread(model.points[strong], _CANDIDATES)[0]]
-    embeddings = {kind: model.embed(model.metric(kind, **_strength(kind)), kind, PATH_ERROR) for kind in METRICS}
+    embeddings = {kind: model.embed(model.metric(kind, **_strength(kind)), PATH_ERROR) for kind in METRICS}
     best: dict[str, seamwire_core.Wire] = {}
     best_gain, best_means, pairs = -np.inf, {}, 0
     for start in ends.tolist():

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-SIGMA = 0.001
-"""The perimeter at which the paper stops cutting in Campen's and Pottmann's metrics (Section 4.1)."""
 PATH_ERROR = 0.01
 """The mean error of lengths that is asked for where paths are drawn."""
 UP_IS_Z = {"nefertiti"}
@@ -78,16 +76,13 @@ class Model:
             return function(self.surface, self.curvature)
         return function(self.surface, self.curvature, follow, **strength)
 
-    def embed(
-        self, metric: seamwire_core.Metric, kind: str = "feature", max_error: float = 0.0
-    ) -> seamwire_core.Embedding:
-        """Return the embedding, as far as the paper goes on in such a metric; a `max_error` resolves the metric about that well."""
-        sigma = 0.0 if kind in {"feature", "euclidean"} else SIGMA
-        return self.core.embed(self.surface, metric, sigma=sigma, max_error=max_error)
+    def embed(self, metric: seamwire_core.Metric, max_error: float = 0.0) -> seamwire_core.Embedding:
+        """Return the paper's embedding; a `max_error` resolves the metric about that well."""
+        return self.core.embed(self.surface, metric, max_error=max_error)
 
     def field(self, kind: str, seed: int, follow: str = "min", **strength: float) -> seamwire_core.DistanceField:
         """Return the distances from a vertex in a metric, which the embedding resolves: paths are smooth."""
-        embedding = self.embed(self.metric(kind, follow, **strength), kind, PATH_ERROR)
+        embedding = self.embed(self.metric(kind, follow, **strength), PATH_ERROR)
         return self.core.distance_field(embedding, seed)
 
     def vertex_at(self, x: float, y: float, z: float) -> int:

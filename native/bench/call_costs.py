@@ -42,7 +42,7 @@ def closed_wire_calls(fineness: int) -> Calls:
     u, v = np.meshgrid(*(np.linspace(0, 2 * np.pi, count, endpoint=False) for count in (m, n)), indexing="ij")
     torus = sw.Surface(*grid((3 + np.cos(v)) * np.cos(u), (3 + np.cos(v)) * np.sin(u), np.sin(v), closed=True))
     metric = sw.concave_metric(torus, sw.principal_curvatures(torus))
-    embedding = sw.embed(torus, metric)
+    embedding = sw.embed(torus, metric, max_error=0)
     field = sw.distance_field(embedding, 0)
     cut = field.closed_wires()[0]
     bent = field.bend(cut)
@@ -60,7 +60,7 @@ def calls_on(fineness: int) -> Calls:
     surface = sw.Surface(points, triangles)
     curvature = sw.principal_curvatures(surface)
     metric = sw.feature_metric(surface, curvature, max_anisotropy=20, clamp_percentile=99)
-    embedding = sw.embed(surface, metric)
+    embedding = sw.embed(surface, metric, max_error=0)
     field = sw.distance_field(embedding, start)
     wire = field.trace(end)
     stroke = sw.Scribble(points[[start, end]], vertices=[start, end])
@@ -73,9 +73,11 @@ def calls_on(fineness: int) -> Calls:
         "smoothed_curvatures, radius 0.01": lambda: sw.smoothed_curvatures(surface, curvature),
         "feature_metric": lambda: sw.feature_metric(surface, curvature, max_anisotropy=20),
         "apply_scribbles, one stroke": lambda: sw.apply_scribbles(surface, metric, [stroke]),
-        "embed": lambda: sw.embed(surface, metric),
+        "embed": lambda: sw.embed(surface, metric, max_error=0),
         "embed, max_error=0.01": lambda: sw.embed(surface, metric, max_error=0.01),
-        "distance_field, the first, with embed": lambda: sw.distance_field(sw.embed(surface, metric), start),
+        "distance_field, the first, with embed": lambda: sw.distance_field(
+            sw.embed(surface, metric, max_error=0), start
+        ),
         "distance_field, further ones": lambda: sw.distance_field(embedding, start),
         "DistanceField.trace": lambda: field.trace(end),
         "snap_to_edges, further ones": lambda: sw.snap_to_edges(surface, wire),

@@ -71,7 +71,7 @@ Metric metric_of(const std::string& mesh, const Surface& surface, double anisotr
 
 ExactGeodesics solver(const Surface& surface, const Metric& metric, int levels) {
   const auto [fine, fine_metric] = refined(surface, metric, levels);
-  return ExactGeodesics(embed(fine, fine_metric).mesh);
+  return ExactGeodesics(embed(fine, fine_metric, {.max_error = 0}).mesh);
 }
 
 // Dijkstra over Steiner points errs by the square of their spacing, which is halved here.
@@ -156,7 +156,7 @@ void measure(const std::string& file, const Options& options) {
       row(name, factoring, [&](std::int32_t seed) { return heat->solve(seed); });
     }
     Embedding embedding;
-    const double embedding_time = seconds([&] { embedding = embed(surface, metric); });
+    const double embedding_time = seconds([&] { embedding = embed(surface, metric, {.max_error = 0}); });
     std::unique_ptr<FastMarching> marching;
     const double unfolding = seconds([&] { marching = std::make_unique<FastMarching>(embedding.mesh); });
     row("fast marching, embedded", embedding_time + unfolding,

@@ -100,7 +100,7 @@ def compare(file: Path, options: argparse.Namespace) -> None:
     for name, metric in metrics.items():
 
         def embed(metric: sw.Metric = metric) -> sw.Embedding:
-            return sw.embed(surface, metric)
+            return sw.embed(surface, metric, max_error=0)
 
         exact = measure_own(embed, "exact", seeds, options.repeats)
         heat = measure_own(embed, "heat", seeds, options.repeats)

@@ -175,7 +175,7 @@ def measure(
     Distances are in percent of the arcs' lengths.
     """
     curvature = sw.principal_curvatures(surface)
-    embeddings = [sw.embed(surface, make(surface, curvature, follow)) for follow in ("min", "max")]
+    embeddings = [sw.embed(surface, make(surface, curvature, follow), max_error=0) for follow in ("min", "max")]
     rows = []
     for boundary, pairs in chosen:
         fields = [sw.distance_field(embedding, pairs[0].start) for embedding in embeddings]

@@ -265,7 +265,8 @@ void measure(const std::string& file, const Options& options) {
   for (std::size_t which = 0; which < 2; ++which) {
     std::vector<double> times;
     times.reserve(5);
-    for (int i = 0; i < 5; ++i) times.push_back(seconds([&] { embeddings[which] = embed(*surface, metrics[which]); }));
+    for (int i = 0; i < 5; ++i)
+      times.push_back(seconds([&] { embeddings[which] = embed(*surface, metrics[which], {.max_error = 0}); }));
     std::printf("  embedding %s, A = %g: %.1f ms, %zu invalid, %zu added, %zu left\n", which == 0 ? "M_min" : "M_max",
                 options.anisotropy, 1e3 * median(times), embeddings[which].invalid_before,
                 embeddings[which].faces_added, embeddings[which].invalid_left);
@@ -283,19 +284,19 @@ void measure(const std::string& file, const Options& options) {
       touched = 0;
       for (std::size_t u = 0; u < changed.size(); ++u) touched += changed.tensors[u] != metrics[0].tensors[u];
       Embedding old = embeddings[0];
-      again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], changed, old); }));
+      again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], changed, old, {.max_error = 0}); }));
       scribble.rings = 10;
       old = embeddings[0];
       const std::int32_t from = any(random), to = any(random);
       Metric drawn;
       drawing.push_back(seconds([&] { drawn = apply_scribbles(*surface, metrics[0], std::vector{scribble}); }));
-      embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, old); }));
+      embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, old, {.max_error = 0}); }));
       std::unique_ptr<ExactGeodesics> geodesics;
       solver.push_back(
           seconds([&] { geodesics = std::make_unique<ExactGeodesics>(before, embeddings[0].mesh, old.mesh); }));
       path.push_back(seconds([&] { CorridorPaths(*geodesics, from, {}).path(to); }));
       until_wire.push_back(drawing.back() + embedding_again.back() + solver.back() + path.back());
-      anew.push_back(seconds([&] { old = embed(*surface, drawn); }));
+      anew.push_back(seconds([&] { old = embed(*surface, drawn, {.max_error = 0}); }));
       const double own = seconds([&] { geodesics = std::make_unique<ExactGeodesics>(old.mesh); });
       until_wire_anew.push_back(drawing.back() + anew.back() + own + path.back());
     }
@@ -335,8 +336,9 @@ void measure(const std::string& file, const Options& options) {
   const auto edges = make_edge_graph(*surface, metrics[0]);
   const double search = seconds([&] { edge_wires(edges, {0}); });
   measure_cancelling("edges", search, options, [&](const Task& task) { edge_wires(edges, {0}, 3.0, false, task); });
-  const double embedding = seconds([&] { embed(*surface, metrics[1]); });
-  measure_cancelling("embedding", embedding, options, [&](const Task& task) { embed(*surface, metrics[1], {}, task); });
+  const double embedding = seconds([&] { embed(*surface, metrics[1], {.max_error = 0}); });
+  measure_cancelling("embedding", embedding, options,
+                     [&](const Task& task) { embed(*surface, metrics[1], {.max_error = 0}, task); });
 }
 
 int measure_all(int argc, char** argv) {

@@ -62,8 +62,9 @@ inline std::string mesh_name(const std::string& file, int loop) {
 /// "euclidean", or "min" or "max": ours at the given strength.
 inline Embedding embed_by_name(const Surface& surface, const std::string& metric, const Strength& strength) {
   const Curvature curvature = principal_curvatures(surface);
-  if (metric == "euclidean") return embed(surface, euclidean_metric(surface, curvature));
-  return embed(surface, feature_metric(surface, curvature, metric == "min" ? Follow::kMin : Follow::kMax, strength));
+  if (metric == "euclidean") return embed(surface, euclidean_metric(surface, curvature), {.max_error = 0});
+  return embed(surface, feature_metric(surface, curvature, metric == "min" ? Follow::kMin : Follow::kMax, strength),
+               {.max_error = 0});
 }
 inline void check_metric_name(const std::string& metric) {
   if (metric != "euclidean" && metric != "min" && metric != "max") {

@@ -47,7 +47,7 @@ def seamwire(points: Array, triangles: NDArray[np.int32]) -> Solve:
     """Return our exact solver, lengths in the mesh's own units."""
     surface = sw.Surface(points, triangles)
     metric = sw.euclidean_metric(surface, sw.principal_curvatures(surface))
-    embedding = sw.embed(surface, metric)
+    embedding = sw.embed(surface, metric, max_error=0)
     sw.distance_field(embedding, 0, max_distance=0.0)  # the solver's own form of the mesh is made once
     return lambda seed: sw.distance_field(embedding, seed).distances / surface.scale
 

@@ -14,6 +14,7 @@ import argparse
 import json
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from math import log
@@ -86,7 +87,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         return on, sw.make_metric(on, feature)
 
     def embedded(n: int) -> sw.Embedding:
-        return sw.embed(*metric(n))
+        return sw.embed(*metric(n), max_error=0)
 
     def far(n: int) -> int:
         rows = round((n / 6) ** 0.5)
@@ -119,7 +120,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
 
     def wire(n: int) -> tuple[sw.Surface, sw.Wire]:
         on, by = metric(n)
-        return on, sw.distance_field(sw.embed(on, by), 0).trace(far(n))
+        return on, sw.distance_field(sw.embed(on, by, max_error=0), 0).trace(far(n))
 
     def line(on: sw.Surface) -> tuple[np.ndarray, np.ndarray]:
         faces = np.arange(0, 2 * round((len(on.triangles) / 6) ** 0.5), 2, np.int32)
@@ -128,6 +129,14 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
     def places(n: int) -> tuple[sw.NearestPoints, np.ndarray]:
         points, triangles = torus(n)
         return sw.NearestPoints(points, triangles), points + 0.01
+
+    def file(n: int, ending: str) -> tuple[tempfile.TemporaryDirectory, str, sw.PolygonMesh]:
+        folder = tempfile.TemporaryDirectory()
+        path = f"{folder.name}/mesh{ending}"
+        points, triangles = torus(n)
+        mesh = sw.PolygonMesh(points, triangles.ravel(), np.full(len(triangles), 3))
+        sw.write_mesh(path, mesh)
+        return folder, path, mesh
 
     def hits(n: int) -> object:
         tree = sw.RayTree(*torus(n))
@@ -215,6 +224,9 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "plane_section": after(lambda n: (surface(n), 0, far(n), [0, 1, 0]), sw.plane_section),
         "face_segments": after(lambda n: (surface(n), ring(n)), sw.face_segments),
         "missing_cuts": after(lambda n: (on := surface(n), ring(n), sw.face_segments(on, ring(n))), sw.missing_cuts),
+        "read_mesh, OBJ": after(lambda n: file(n, ".obj"), lambda _, path, __: sw.read_mesh(path)),
+        "read_mesh, STL": after(lambda n: file(n, ".stl"), lambda _, path, __: sw.read_mesh(path)),
+        "write_mesh, PLY": after(lambda n: file(n, ".ply"), lambda _, path, mesh: sw.write_mesh(path, mesh)),
         "triangulate": after(
             lambda n: (torus(n)[0], torus(n)[1].ravel(), np.full(len(torus(n)[1]), 3, np.int32)), sw.triangulate
         ),
@@ -255,6 +267,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         # Element Mesh", 1973).
         "flatten": (after(lambda n: (*torus(n), ring(n)), sw.flatten), 1.5),
         "SeamPlanner.plan": (seam_plan(torus), 1.5),
+        "distance_field, heat": (after(embedded, lambda on: sw.distance_field(on, 0, method="heat")), 1.5),
         # Each window crosses as many triangles as the surface is wide, so an exact front has up to n^1.5 windows.
         "distance_field": (after(embedded, lambda on: sw.distance_field(on, 0)), 1.5),
         "closed_wires": (after(field, lambda distances, _: distances.closed_wires()), 1.5),

@@ -46,7 +46,7 @@ def main() -> None:
         unit = float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
         mesh = SlidFaces(points, triangles, np.arange(len(triangles)), dict(enumerate(triangles.tolist())))
         surface = sw.Surface(points, triangles, edges)
-        embedding = sw.embed(surface, sw.feature_metric(surface, sw.principal_curvatures(surface)))
+        embedding = sw.embed(surface, sw.feature_metric(surface, sw.principal_curvatures(surface)), max_error=0)
         centers = KDTree(points[triangles].mean(axis=1))
         rows, moved, chained, spent = [], 0, 0, 0.0
         for number in range(_FIELDS):

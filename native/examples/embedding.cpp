@@ -16,13 +16,13 @@ int main() {
   const SurfaceContext context(std::move(points), std::move(triangles));
   //! [embed]
   const MetricSpec spec = MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0, .clamp_percentile = 99.0});
-  const EmbeddedSurface embedded(context, spec);
+  const EmbeddedSurface embedded(context, spec, {.max_error = 0});  // only invalid triangles, as in the paper
   const Embedding& embedding = embedded.embedding();
   std::printf("%zu triangles were invalid, %zu were added\n", embedding.invalid_before, embedding.faces_added);
   //! [embed]
 
   //! [error]
-  const EmbeddedSurface refined(context, spec, {.max_error = 0.01});
+  const EmbeddedSurface refined(context, spec);  // a max_error of 0.01
   const Resolution resolution = *refined.embedding().resolution;
   std::printf("%zu were added for an error of %g; %zu triangles miss it\n", refined.embedding().faces_added,
               resolution.estimated_error, resolution.unmet);
@@ -41,7 +41,7 @@ int main() {
   //! [faces]
   std::vector<std::int32_t> patch(500);
   std::iota(patch.begin(), patch.end(), 0);
-  const EmbeddedSurface part(context, spec, {.max_error = 0.01, .faces = patch});
+  const EmbeddedSurface part(context, spec, {.faces = patch});
   std::printf("%zu triangles\n", part.embedding().mesh.face_count());
   //! [faces]
 }

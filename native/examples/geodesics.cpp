@@ -48,7 +48,7 @@ int main() {
   std::printf("length of a path found at once: %g\n", path.length);
 
   //! [heat]
-  const HeatGeodesics& heat = embedded.heat();  // factors two matrices, once
+  const HeatGeodesics& heat = embedded.heat_geodesics();  // factors two matrices, once
   const EmbeddedField approximate = embedded.field(heat, seeds);
   //! [heat]
   std::printf("approximate distance from the nearest seed: %g\n", approximate.distance(end));

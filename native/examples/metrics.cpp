@@ -38,8 +38,9 @@ int main() {
     const Vector down = Vector(0, 0, 1) - n.z() * n;  // the vertical direction, in the tangent plane
     own.tensors[v] += 9.0 * down * down.transpose();  // climbing is up to sqrt(10) times as long
   }
+  const EmbeddedSurface in_own(context, std::make_shared<const Metric>(own));
   //! [own]
-  std::printf("anisotropy %g\n", max_anisotropy(own));
+  std::printf("anisotropy %g\n", max_anisotropy(in_own.metric()));
 
   //! [crests]
   const CrestLines lines = crest_lines(surface, smooth);

@@ -14,7 +14,9 @@ using namespace seamwire;
 int main() {
   auto [points, triangles] = sheet();
   const SurfaceContext context(points, triangles);
-  const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}));
+  // With a max_error, a stroke would embed the whole surface again.
+  const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}),
+                                 {.max_error = 0});
   const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
   //! [stroke]
   Scribble stroke;

@@ -12,10 +12,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <random>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,12 +31,14 @@
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/errors.hpp"
+#include "seamwire/files/mesh_file.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/crest_lines.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/polygon_mesh.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -379,10 +386,8 @@ void check_geodesics(const Patience& patience, const Surface& surface) {
 }
 
 void check_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric) {
-  EmbedOptions options;
+  EmbedOptions options{.max_error = 0};
   options.max_faces_added = static_cast<std::size_t>(from.byte()) * 40;
-  options.sigma = from.coin() ? 0.0 : from.at_least(0.0);
-  options.perimeter = from.coin() ? Perimeter::kMetric : Perimeter::kEuclidean;
   const Embedding embedding = embed(surface, metric, options, patience.task());
   require(embedding.worst_clamp >= 1.0, "a factor is one or more");
   const ExactGeodesics solver(embedding.mesh);
@@ -529,6 +534,60 @@ void check_map(Bytes& from, const Patience& patience, const Surface& surface) {
   }
 }
 
+PolygonMesh polygons_of(Bytes& from, const Mesh& mesh) {
+  PolygonMesh polygons{.points = mesh.points, .corners = {}, .sizes = {}, .colors = {}};
+  for (const Triangle& triangle : mesh.triangles) {
+    polygons.corners.insert(polygons.corners.end(), triangle.begin(), triangle.end());
+    polygons.sizes.push_back(3);
+  }
+  if (from.coin()) polygons.colors.assign(mesh.points.size(), {0.0, 0.2, 1.0});
+  return polygons;
+}
+
+bool is_same(const PolygonMesh& one, const PolygonMesh& other) {
+  return one.points == other.points && one.corners == other.corners && one.sizes == other.sizes;
+}
+
+/// Changes, removes, repeats or inserts a few characters of a file.
+void damage(Bytes& from, std::string& file) {
+  static constexpr std::array kWords{"-", ".", "e999", "/", "#", "\\", "\n", "0", "99999999999", " ", "\r", "\xff"};
+  for (std::int32_t left = 1 + from.below(4); left > 0 && !file.empty(); --left) {
+    const std::size_t place = (256U * from.byte() + from.byte()) % file.size(), length = 1 + from.byte() / 16U;
+    const std::int32_t kind = from.below(4);
+    if (kind == 0) file[place] = static_cast<char>(from.byte());
+    if (kind == 1) file.erase(place, length);
+    if (kind == 2) file.insert(place, std::string(file.substr(place, length)));
+    if (kind == 3) file.insert(place, kWords[static_cast<std::size_t>(from.below(kWords.size()))]);
+  }
+}
+
+/// A file that was written is read as it was. A damaged one is refused, or is a mesh in order.
+void check_files(Bytes& from, const Mesh& mesh) {
+  static constexpr std::array kEndings{".obj", ".ply", ".off", ".stl"};
+  static const std::string name = "seamwire-fuzz-" + std::to_string(std::random_device()());
+  const auto kind = static_cast<std::size_t>(from.below(kEndings.size()));
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / (name + kEndings[kind]);
+  const PolygonMesh polygons = polygons_of(from, mesh);
+  write_mesh(path, polygons);
+  // STL has no vertices that triangles share.
+  if (kEndings[kind] != std::string(".stl")) require(is_same(read_mesh(path), polygons), "a file has what was written");
+  std::ifstream whole(path, std::ios::binary);
+  std::string file{std::istreambuf_iterator<char>(whole), {}};
+  whole.close();
+  damage(from, file);
+  std::ofstream(path, std::ios::binary) << file;
+  std::optional<PolygonMesh> found;
+  try {
+    found = read_mesh(path);
+  } catch (const FileError&) {
+  }
+  std::filesystem::remove(path);
+  if (!found) return;
+  check(*found);
+  polygon_edges(*found);
+  make_surface(*found);
+}
+
 void check_rays(Bytes& from, const Mesh& mesh) {
   const RayTree tree(mesh.points, mesh.triangles);
   const Vector origin{from.number(), from.number(), from.number()};
@@ -556,10 +615,10 @@ void check_curvature(const Surface& surface) {
 }
 
 /// Each input tries one part of the library on its mesh.
-enum class Part : std::uint8_t { kSurface, kGeodesics, kEdgeWires, kWires, kMap, kPlan };
-constexpr std::array kPartNames{"surface", "geodesics", "edge wires", "wires", "map", "plan"};
+enum class Part : std::uint8_t { kSurface, kFiles, kGeodesics, kEdgeWires, kWires, kMap, kPlan };
+constexpr std::array kPartNames{"surface", "files", "geodesics", "edge wires", "wires", "map", "plan"};
 /// How many of 32 inputs try each part. A plan takes 60 times as long as the first part.
-constexpr std::array kPartShares{10, 8, 8, 3, 2, 1};
+constexpr std::array kPartShares{7, 3, 8, 8, 3, 2, 1};
 
 Part part_from(Bytes& from) {
   std::int32_t left = from.below(32);
@@ -568,10 +627,11 @@ Part part_from(Bytes& from) {
   return static_cast<Part>(part);
 }
 
-void check(Bytes& from, Part part) {
+void try_part(Bytes& from, Part part) {
   const Patience patience;
   const Mesh mesh = mesh_from(from);
   if (part == Part::kSurface) check_rays(from, mesh);
+  if (part == Part::kFiles) return check_files(from, mesh);
   const Surface surface(mesh.points, mesh.triangles, mesh.edges);
   if (part == Part::kSurface) return check_curvature(surface);
   if (part == Part::kGeodesics) return check_geodesics(patience, surface);
@@ -619,7 +679,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const seamwire::Part part = seamwire::part_from(bytes);
   seamwire::Outcomes& outcomes = tally.parts[static_cast<std::size_t>(part)];
   try {
-    seamwire::check(bytes, part);
+    seamwire::try_part(bytes, part);
     ++outcomes.at_the_end;
   } catch (const seamwire::InvalidInput&) {
     ++outcomes.refused;

@@ -231,6 +231,21 @@ CornerUvs corner_uvs_from(py::handle value, const std::string& name) {
   return uvs;
 }
 
+std::vector<Eigen::Matrix3d> tensors_from(py::handle value, const std::string& name) {
+  const PythonCall calling;
+  const std::string wanted = name + ": expected real numbers of shape (n, 3, 3)";
+  const py::array array = array_from(value, wanted);
+  if (array.ndim() != 3 || array.shape(1) != 3 || array.shape(2) != 3) {
+    throw InvalidInput(wanted + ", got shape " + shape_of(array));
+  }
+  const std::vector<double> numbers = values_from(array.attr("reshape")(-1), name);
+  std::vector<Eigen::Matrix3d> tensors(numbers.size() / 9);
+  for (std::size_t i = 0; i < tensors.size(); ++i) {
+    tensors[i] = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&numbers[9 * i]);
+  }
+  return tensors;
+}
+
 Eigen::MatrixXd matrix_from(py::handle value, py::ssize_t columns, const std::string& name) {
   const PythonCall calling;
   const py::array array = rows_from(value, columns, "fiu", "real numbers", name).attr("astype")("float64");

@@ -47,6 +47,8 @@ std::vector<Eigen::AlignedBox2d> boxes_from(py::handle value, const std::string&
 std::vector<std::uint8_t> flags_from(py::handle value, const std::string& name);
 /// Real numbers of shape (m, 3, 2).
 CornerUvs corner_uvs_from(py::handle value, const std::string& name);
+/// Real numbers of shape (n, 3, 3).
+std::vector<Eigen::Matrix3d> tensors_from(py::handle value, const std::string& name);
 /// Real numbers of shape (n, columns).
 Eigen::MatrixXd matrix_from(py::handle value, py::ssize_t columns, const std::string& name);
 /// An integer that is not negative. A number above the range becomes the largest one.

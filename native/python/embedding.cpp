@@ -132,9 +132,6 @@ void bind_resolution(EmbeddingClass& embedding) {
       .def_property_readonly("unmet", resolution_in(&Resolution::unmet),
                              "int or None: how many triangles miss the max_error. They are 14 bisections deep, or "
                              "max_faces_added ended the subdivision.")
-      .def_property_readonly("largest_deviation", resolution_in(&Resolution::largest_deviation),
-                             "float or None: eta. Without holes, distances are within a factor of e^eta of those in "
-                             "the metric that varies linearly in each triangle.")
       .def_property_readonly("mean_edge_length", number_in(&Embedding::mean_edge_length),
                              "float: the mean length of the surface's edges in the metric.");
 }
@@ -163,18 +160,10 @@ void bind_embedding_report(EmbeddingClass& embedding) {
                              "bool: whether max_faces_added ended the subdivision.");
 }
 
-Perimeter perimeter_from(const std::string& name) {
-  if (name == "metric") return Perimeter::kMetric;
-  if (name == "euclidean") return Perimeter::kEuclidean;
-  throw InvalidInput("perimeter: expected 'metric' or 'euclidean', got '" + name + "'");
-}
-
-std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, const MetricObject& metric, double sigma,
-                                               const std::string& perimeter, const py::object& max_faces_added,
-                                               double max_error, const py::object& progress) {
-  EmbedOptions options{.sigma = sigma, .perimeter = perimeter_from(perimeter), .max_error = max_error};
-  options.max_faces_added = count_from(max_faces_added, "max_faces_added");
-  if (!(sigma >= 0.0)) throw InvalidInput("sigma: expected a number that is not negative");
+std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, const MetricObject& metric,
+                                               const py::object& max_faces_added, double max_error,
+                                               const py::object& progress) {
+  const EmbedOptions options{.max_faces_added = count_from(max_faces_added, "max_faces_added"), .max_error = max_error};
   check_size("metric", metric.metric.size(), *surface.surface);
   return Watch(progress).run([&](const Task& task) {
     return std::shared_ptr<EmbeddingObject>(
@@ -183,9 +172,8 @@ std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, con
 }
 
 void bind_embed(py::module_& module) {
-  module.def("embed", &embed_surface, py::arg("surface"), py::arg("metric"), py::arg("sigma") = 0.0,
-             py::arg("perimeter") = "metric", py::arg("max_faces_added") = 4'000'000, py::arg("max_error") = 0.0,
-             py::arg("progress") = py::none(),
+  module.def("embed", &embed_surface, py::arg("surface"), py::arg("metric"), py::arg("max_faces_added") = 4'000'000,
+             py::arg("max_error") = 0.01, py::arg("progress") = py::none(),
              R"(Subdivide a surface until its triangles can have the edge lengths that a metric gives them.
 
 Parameters
@@ -193,10 +181,6 @@ Parameters
 surface : Surface
 metric : Metric
     Of that surface.
-sigma : float
-    At least 0. Subdivision stops when all triangles that are still invalid have smaller perimeters.
-perimeter : {'metric', 'euclidean'}
-    How that perimeter is measured.
 max_faces_added : int
     At least 0. Subdivision stops after adding this many triangles.
 max_error : float

@@ -29,7 +29,7 @@ struct EmbeddingObject {
       : embedded(std::move(made)), surface(embedded.context().peek_surface()), embedding(embedded.embedding()) {}
 
   const ExactGeodesics& geodesics(const Task& task) const { return embedded.geodesics(task); }
-  const HeatGeodesics& heat(const Task& task) const { return embedded.heat(task); }
+  const HeatGeodesics& heat_geodesics(const Task& task) const { return embedded.heat_geodesics(task); }
   const Edges& edges() const;
 
   /// Finds a point of the surface on the embedding. Throws InvalidInput, which begins with `name`, if the embedding has

@@ -297,7 +297,7 @@ Held<FieldObject> make_field(const std::shared_ptr<EmbeddingObject>& embedding, 
     const double prepared = by_heat ? 0.8 : 0.0;
     const Task first = detail::part_of(task, 0.0, prepared), last = detail::part_of(task, prepared, 1.0);
     const DistanceMethod& solver =
-        by_heat ? static_cast<const DistanceMethod&>(embedding->heat(first)) : embedding->geodesics(first);
+        by_heat ? static_cast<const DistanceMethod&>(embedding->heat_geodesics(first)) : embedding->geodesics(first);
     for (SurfacePoint& point : solve.seeds) point = embedding->find(point, "seed");
     for (SurfacePoint& point : solve.options.targets) point = embedding->find(point, "target");
     return make_held<FieldObject>(FieldObject{embedding, solver.solve(solve.seeds, solve.options, last), method});

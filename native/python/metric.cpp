@@ -13,6 +13,7 @@
 
 #include "arrays.hpp"
 #include "held.hpp"
+#include "metric/metric_check.hpp"
 #include "names.hpp"
 #include "rooms.hpp"
 #include "surface.hpp"
@@ -151,8 +152,42 @@ double find_max_anisotropy(const MetricObject& object) {
   return without_gil([&] { return max_anisotropy(object.metric); });
 }
 
+Held<MetricObject> metric_of(const py::object& normals, const py::object& tensors) {
+  Metric metric{.normals = points_from(normals, "normals"), .tensors = tensors_from(tensors, "tensors")};
+  if (metric.normals.size() != metric.tensors.size()) {
+    throw InvalidInput("tensors: expected " + std::to_string(metric.normals.size()) +
+                       " tensors, one for each normal, got " + std::to_string(metric.tensors.size()));
+  }
+  return without_gil([&] {
+    detail::check_tensors(metric);
+    return make_held<MetricObject>(std::move(metric));
+  });
+}
+
 void bind_metric_class(py::module_& module) {
-  MetricClass(module, "Metric", "An anisotropic metric: a tensor on the tangent plane of each vertex.")
+  MetricClass(module, "Metric", R"(An anisotropic metric: a tensor on the tangent plane of each vertex.
+
+Functions such as `feature_metric` make one. The constructor takes your own tensors.
+
+Parameters
+----------
+normals : (n, 3) array_like of float
+    Unit normals, such as `Curvature.normals`. Zero at vertices without a face.
+tensors : (n, 3, 3) array_like of float
+    Symmetric tensors, which map the normal to zero. A tangent vector x at a vertex of the model scaled to the unit cube
+    has the length sqrt(x tensor x).
+
+Raises
+------
+ValueError
+    If a shape is wrong, or a tensor is not finite, not symmetric, or has an eigenvalue in the tangent plane that is not
+    positive or above 1e150.
+
+References
+----------
+Section 2.1 of the paper, eq. 1.
+)")
+      .def(py::init(&metric_of), py::arg("normals"), py::arg("tensors"))
       .def_property_readonly("normals",
                              array_of<MetricObject>([](const MetricObject& m) -> auto& { return m.metric.normals; }),
                              "(n, 3) float64: unit normals; zero at vertices without a face.")

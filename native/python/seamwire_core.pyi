@@ -311,8 +311,30 @@ def smoothed_curvatures(
     """
 
 class Metric:
-    """An anisotropic metric: a tensor on the tangent plane of each vertex."""
+    """An anisotropic metric: a tensor on the tangent plane of each vertex.
 
+    Functions such as `feature_metric` make one. The constructor takes your own tensors.
+
+    Parameters
+    ----------
+    normals : (n, 3) array_like of float
+        Unit normals, such as `Curvature.normals`. Zero at vertices without a face.
+    tensors : (n, 3, 3) array_like of float
+        Symmetric tensors, which map the normal to zero. A tangent vector x at a vertex of the model scaled to the unit cube
+        has the length sqrt(x tensor x).
+
+    Raises
+    ------
+    ValueError
+        If a shape is wrong, or a tensor is not finite, not symmetric, or has an eigenvalue in the tangent plane that is not
+        positive or above 1e150.
+
+    References
+    ----------
+    Section 2.1 of the paper, eq. 1.
+    """
+
+    def __init__(self, normals: ArrayLike, tensors: ArrayLike) -> None: ...
     normals: NDArray[np.float64]
     """(n, 3) float64: unit normals; zero at vertices without a face."""
     tensors: NDArray[np.float64]
@@ -737,18 +759,14 @@ class Embedding:
     """float or None: the max_error that the worst triangle meets, None if max_error was 0. An estimate of the mean relative error of distances, not a bound."""
     unmet: int | None
     """int or None: how many triangles miss the max_error. They are 14 bisections deep, or max_faces_added ended the subdivision."""
-    largest_deviation: float | None
-    """float or None: eta. Without holes, distances are within a factor of e^eta of those in the metric that varies linearly in each triangle."""
     mean_edge_length: float
     """float: the mean length of the surface's edges in the metric."""
 
 def embed(
     surface: Surface,
     metric: Metric,
-    sigma: float = 0.0,
-    perimeter: Literal["metric", "euclidean"] = "metric",
     max_faces_added: int = 4000000,
-    max_error: float = 0.0,
+    max_error: float = 0.01,
     progress: Callable[[float], bool | None] | None = None,
 ) -> Embedding:
     """Subdivide a surface until its triangles can have the edge lengths that a metric gives them.
@@ -758,10 +776,6 @@ def embed(
     surface : Surface
     metric : Metric
         Of that surface.
-    sigma : float
-        At least 0. Subdivision stops when all triangles that are still invalid have smaller perimeters.
-    perimeter : {'metric', 'euclidean'}
-        How that perimeter is measured.
     max_faces_added : int
         At least 0. Subdivision stops after adding this many triangles.
     max_error : float
@@ -833,11 +847,11 @@ class Wire:
     to_vertex: int
     """int: the vertex where it ends; -1 if that point is not a vertex."""
     points: NDArray[np.float64]
-    """(p, 3) float64: in the caller's coordinates. There are no rows if the target is unreachable."""
+    """(p, 3) float64: in the caller's coordinates."""
     faces: NDArray[np.int32]
     """(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face."""
     length: float
-    """float: the length in the metric, of the model scaled to the unit cube. inf if the target is unreachable."""
+    """float: the length in the metric, of the model scaled to the unit cube."""
     euclidean_length: float
     """float: the Euclidean length, of the model scaled to the unit cube."""
 

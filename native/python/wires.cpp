@@ -28,14 +28,10 @@ void bind_wire(py::module_& module) {
   py::class_<Wire>(module, "Wire", "A geodesic across a surface.")
       .def_readonly("from_vertex", &Wire::from, "int: the vertex where it begins; -1 if that point is not a vertex.")
       .def_readonly("to_vertex", &Wire::to, "int: the vertex where it ends; -1 if that point is not a vertex.")
-      .def_property_readonly(
-          "points", array_of<Wire>(&Wire::points),
-          "(p, 3) float64: in the caller's coordinates. There are no rows if the target is unreachable.")
+      .def_property_readonly("points", array_of<Wire>(&Wire::points), "(p, 3) float64: in the caller's coordinates.")
       .def_property_readonly("faces", array_of<Wire>(&Wire::faces),
                              "(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face.")
-      .def_readonly("length", &Wire::length,
-                    "float: the length in the metric, of the model scaled to the unit cube. inf if the target is "
-                    "unreachable.")
+      .def_readonly("length", &Wire::length, "float: the length in the metric, of the model scaled to the unit cube.")
       .def_readonly("euclidean_length", &Wire::euclidean_length,
                     "float: the Euclidean length, of the model scaled to the unit cube.")
       .def("__repr__", [](const Wire& w) {

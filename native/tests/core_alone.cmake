@@ -22,7 +22,7 @@ endif()
 set(options -G ${GENERATOR} -Dseamwire_ROOT=${FOLDER}/installed -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
 run("" ${CMAKE_COMMAND} -S ${FIRST} -B ${FOLDER}/first ${options})
 run("" ${CMAKE_COMMAND} --build ${FOLDER}/first)
-run("feature: " ${FOLDER}/first/first)
+run("in the metric" ${FOLDER}/first/first ${FIRST}/squares.obj 0 5)
 
 file(WRITE ${FOLDER}/both/CMakeLists.txt
   "cmake_minimum_required(VERSION 3.25)\nproject(both LANGUAGES CXX)\nfind_package(seamwire REQUIRED COMPONENTS core uv)\n")

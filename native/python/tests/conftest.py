@@ -24,7 +24,7 @@ def metric(surface: sw.Surface, curvature: sw.Curvature) -> sw.Metric:
 
 @pytest.fixture(scope="session")
 def embedding(surface: sw.Surface, metric: sw.Metric) -> sw.Embedding:
-    return sw.embed(surface, metric)
+    return sw.embed(surface, metric, max_error=0)
 
 
 @pytest.fixture(scope="session")

@@ -29,7 +29,7 @@ POINTS, TRIANGLES = meshes.torus(6, 6)
 SURFACE = sw.Surface(POINTS, TRIANGLES)
 CURVATURE = sw.principal_curvatures(SURFACE)
 EUCLIDEAN = sw.euclidean_metric(SURFACE, CURVATURE)
-EMBEDDING = sw.embed(SURFACE, EUCLIDEAN)
+EMBEDDING = sw.embed(SURFACE, EUCLIDEAN, max_error=0)
 FIELD = sw.distance_field(EMBEDDING, 0)
 
 
@@ -97,7 +97,7 @@ def test_strengths(metric: Callable[..., sw.Metric], strength: dict[str, float],
     except REFUSALS as refusal:
         assert str(refusal)
         return
-    embedding = sw.embed(SURFACE, found, max_faces_added=2000)
+    embedding = sw.embed(SURFACE, found, max_faces_added=2000, max_error=0)
     distances = sw.distance_field(embedding, 0).distances
     assert not np.isnan(distances).any()
     assert (distances >= 0.0).all()

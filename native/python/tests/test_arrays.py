@@ -110,7 +110,7 @@ def views(surface: sw.Surface) -> list[tuple[object, str]]:
     """Every array of every kind of result, as (owner, attribute)."""
     curvature = sw.principal_curvatures(surface)
     metric = sw.feature_metric(surface, curvature)
-    embedding = sw.embed(surface, metric)
+    embedding = sw.embed(surface, metric, max_error=0)
     field = sw.distance_field(embedding, 0)
     live = sw.LiveWire(surface)
     live.seed(0)

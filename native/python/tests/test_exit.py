@@ -41,16 +41,16 @@ time.sleep({delay})
 
 WORK = {
     "a field": (
-        "s = grid(60); e = sw.embed(s, sw.euclidean_metric(s, sw.principal_curvatures(s)))",
+        "s = grid(60); e = sw.embed(s, sw.euclidean_metric(s, sw.principal_curvatures(s)), max_error=0)",
         "sw.distance_field(e, 0)",
     ),
     "a field that tells its progress": (
-        "s = grid(60); e = sw.embed(s, sw.euclidean_metric(s, sw.principal_curvatures(s)))",
+        "s = grid(60); e = sw.embed(s, sw.euclidean_metric(s, sw.principal_curvatures(s)), max_error=0)",
         "sw.distance_field(e, 0, progress=lambda fraction: time.sleep(0.001))",
     ),
     "an embedding": (
         "s = grid(60); m = sw.campen_metric(s, sw.principal_curvatures(s), alpha=100)",
-        "sw.embed(s, m, progress=lambda fraction: None)",
+        "sw.embed(s, m, progress=lambda fraction: None, max_error=0)",
     ),
     "what cannot be stopped": ("s = grid(300)", "sw.face_segments(s, s.edges[::2])"),
     "waiting": ("s = grid(60); w = sw.LiveWire(s)", "w.seed(0); w.wait()"),
@@ -160,7 +160,7 @@ def work():
     try:
         while True:
             begun.set()
-            sw.embed(surface, metric)
+            sw.embed(surface, metric, max_error=0)
     except SystemExit as error:
         left = error
     try:

@@ -57,7 +57,7 @@ def test_other_parts_are_unreachable() -> None:
         np.concatenate([points, points + np.array([3.0, 0.0, 0.0])]),
         np.concatenate([triangles, triangles + len(points)]),
     )
-    embedding = sw.embed(both, sw.euclidean_metric(both, sw.principal_curvatures(both)))
+    embedding = sw.embed(both, sw.euclidean_metric(both, sw.principal_curvatures(both)), max_error=0)
     field = sw.distance_field(embedding, 0, method="heat")
     assert np.isfinite(field.distances[: len(points)]).all()
     assert np.isinf(field.distances[len(points) :]).all()
@@ -72,7 +72,7 @@ def test_distances_end_at_the_radius(embedding: sw.Embedding, heat_field: sw.Dis
 
 
 def test_closed_wires_and_their_bending_take_heat_fields(surface: sw.Surface) -> None:
-    embedding = sw.embed(surface, sw.concave_metric(surface, sw.principal_curvatures(surface)))
+    embedding = sw.embed(surface, sw.concave_metric(surface, sw.principal_curvatures(surface)), max_error=0)
     field = sw.distance_field(embedding, 0, method="heat")
     cuts = field.closed_wires()
     assert cuts
@@ -88,7 +88,7 @@ def test_another_name_is_refused(embedding: sw.Embedding) -> None:
 
 
 def test_the_embedding_keeps_the_factors(large: sw.Surface) -> None:
-    embedding = sw.embed(large, sw.euclidean_metric(large, sw.principal_curvatures(large)))
+    embedding = sw.embed(large, sw.euclidean_metric(large, sw.principal_curvatures(large)), max_error=0)
     times = []
     for seed in (0, 5, 9):
         start = time.process_time()
@@ -98,7 +98,7 @@ def test_the_embedding_keeps_the_factors(large: sw.Surface) -> None:
 
 
 def test_progress_rises_and_cancels(large: sw.Surface) -> None:
-    embedding = sw.embed(large, sw.euclidean_metric(large, sw.principal_curvatures(large)))
+    embedding = sw.embed(large, sw.euclidean_metric(large, sw.principal_curvatures(large)), max_error=0)
     with pytest.raises(sw.Cancelled):
         sw.distance_field(embedding, 0, method="heat", progress=lambda done: done < 0.5)
     fractions: list[float] = []
@@ -110,7 +110,7 @@ def test_progress_rises_and_cancels(large: sw.Surface) -> None:
 def test_a_nearer_seed_counts_beside_one_in_the_same_face() -> None:
     points, triangles = meshes.grid(20)
     surface = sw.Surface(points, triangles)
-    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)), max_error=0)
     # One seed in a corner of a long face, and one at its far end.
     face = len(triangles) // 2
     corner = int(triangles[face][2])

@@ -33,7 +33,7 @@ def test_across_the_surface_gives_geodesics_and_their_edges(surface: sw.Surface,
     assert found.active == 0
     for wire in found.wires:
         metric = metric_of(surface, curvature, wire.follow)
-        traced = sw.distance_field(sw.embed(surface, metric), 3).trace(500)
+        traced = sw.distance_field(sw.embed(surface, metric, max_error=0), 3).trace(500)
         np.testing.assert_array_equal(wire.points, traced.points)
         np.testing.assert_array_equal(wire.faces, traced.faces)
         np.testing.assert_array_equal(wire.vertices, sw.snap_to_edges(surface, traced))
@@ -47,7 +47,7 @@ def test_from_point_to_point_within_faces(surface: sw.Surface, curvature: sw.Cur
     live.wait()
     for wire in live.wires(target).wires:
         metric = metric_of(surface, curvature, wire.follow)
-        traced = sw.distance_field(sw.embed(surface, metric), seed).trace_to(*target)
+        traced = sw.distance_field(sw.embed(surface, metric, max_error=0), seed).trace_to(*target)
         np.testing.assert_array_equal(wire.points, traced.points)
         assert wire.length == traced.length
         assert [wire.vertices[0], wire.vertices[-1]] == [surface.triangles[40][1], surface.triangles[900][1]]
@@ -66,7 +66,7 @@ def test_closed_wires_are_those_of_the_field_in_pieces(
         sw.concave_metric(surface, sw.smoothed_curvatures(surface, curvature)),
         sw.euclidean_metric(surface, curvature),
     )
-    loops = [sw.distance_field(sw.embed(surface, metric), through).closed_wires() for metric in metrics]
+    loops = [sw.distance_field(sw.embed(surface, metric, max_error=0), through).closed_wires() for metric in metrics]
     assert found.cuts[0].id == (0, 0)
     assert len({cut.id for cut in found.cuts}) == len(found.cuts)
     for cut in found.cuts:
@@ -99,7 +99,7 @@ def test_a_bent_wire_is_that_of_the_field_in_pieces(
     assert found.final
     (cut,) = found.cuts
     field = sw.distance_field(
-        sw.embed(surface, sw.concave_metric(surface, sw.smoothed_curvatures(surface, curvature))), 3
+        sw.embed(surface, sw.concave_metric(surface, sw.smoothed_curvatures(surface, curvature)), max_error=0), 3
     )
     there, back = field.bend(field.closed_wires()[0]).through(second)
     assert cut.length == there.length + back.length
@@ -164,7 +164,9 @@ def test_tells_what_became_of_its_embeddings(surface: sw.Surface, curvature: sw.
     live.seed(3)
     live.wait()
     for follow, told in zip(("min", "max"), live.embeddings()[1:], strict=True):
-        embedding = sw.embed(surface, sw.feature_metric(surface, curvature, follow=follow, max_anisotropy=30.0))
+        embedding = sw.embed(
+            surface, sw.feature_metric(surface, curvature, follow=follow, max_anisotropy=30.0), max_error=0
+        )
         assert told is not None
         for name in ("invalid_left", "hit_cap", "clamped_edges", "worst_clamp"):
             assert getattr(told, name) == getattr(embedding, name)

@@ -58,7 +58,7 @@ def longest_hold(work: Callable[[], object]) -> float:
 
 @pytest.fixture(scope="module")
 def embedding_of_large(large: sw.Surface, large_metric: sw.Metric) -> sw.Embedding:
-    return sw.embed(large, large_metric)
+    return sw.embed(large, large_metric, max_error=0)
 
 
 CALLS = (
@@ -98,7 +98,7 @@ def test_other_threads_run_meanwhile(
         "principal_curvatures": lambda: sw.principal_curvatures(large),
         "feature_metric": lambda: sw.feature_metric(large, curvature),
         "repr of a metric": lambda: repr(large_metric),
-        "embed": lambda: sw.embed(large, large_metric),
+        "embed": lambda: sw.embed(large, large_metric, max_error=0),
         "distance_field": lambda: sw.distance_field(embedding_of_large, 0),
         "distance_field by heat": lambda: sw.distance_field(embedding_of_large, 0, method="heat"),
         "edge_wires": lambda: sw.edge_wires(large, large_metric, 0),
@@ -152,7 +152,7 @@ def work(
         "concave_metric": lambda progress: sw.concave_metric(large, curvature, progress=progress),
         "euclidean_metric": lambda progress: sw.euclidean_metric(large, curvature, progress),
         "apply_scribbles": lambda progress: sw.apply_scribbles(large, large_metric, [stroke], progress=progress),
-        "embed": lambda progress: sw.embed(large, large_metric, progress=progress),
+        "embed": lambda progress: sw.embed(large, large_metric, progress=progress, max_error=0),
         "distance_field": lambda progress: sw.distance_field(embedding_of_large, 0, progress=progress),
         "distance_field by heat": lambda progress: sw.distance_field(
             embedding_of_large, 0, method="heat", progress=progress
@@ -222,7 +222,7 @@ def test_control_c_stops_long_work(embedding_of_large: sw.Embedding) -> None:
 def test_what_is_kept_can_be_given_up_and_made_again(large: sw.Surface) -> None:
     curvature = sw.principal_curvatures(large)
     metric = sw.euclidean_metric(large, curvature)
-    embedding = sw.embed(large, metric)
+    embedding = sw.embed(large, metric, max_error=0)
     asked: list[float] = []
 
     def go_on(fraction: float) -> bool:
@@ -240,7 +240,7 @@ def test_what_is_kept_can_be_given_up_and_made_again(large: sw.Surface) -> None:
 
 def test_progress_may_ask_for_what_is_being_built(large: sw.Surface) -> None:
     metric = sw.feature_metric(large, sw.principal_curvatures(large))
-    embedding = sw.embed(large, metric)
+    embedding = sw.embed(large, metric, max_error=0)
     inner: list[object] = []
 
     def ask(_: float) -> None:
@@ -252,14 +252,14 @@ def test_progress_may_ask_for_what_is_being_built(large: sw.Surface) -> None:
     chain = sw.edge_wires(large, metric, 0, progress=ask).trace(900)
     np.testing.assert_array_equal(chain.vertices, inner[1])
     inner.clear()
-    embedding = sw.embed(large, metric)
+    embedding = sw.embed(large, metric, max_error=0)
     field = sw.distance_field(embedding, 0, progress=ask)
     np.testing.assert_array_equal(field.distances, inner[2])
 
 
 def test_who_waits_for_what_another_thread_builds_can_give_up(large: sw.Surface) -> None:
     metric = sw.feature_metric(large, sw.principal_curvatures(large))
-    embedding = sw.embed(large, metric)
+    embedding = sw.embed(large, metric, max_error=0)
     for build in (
         lambda p: sw.edge_wires(large, metric, 0, progress=p),
         lambda p: sw.distance_field(embedding, 0, progress=p),
@@ -297,7 +297,7 @@ def test_control_c_ends_waiting(large: sw.Surface) -> None:
 def test_what_is_kept_is_made_once_for_all_threads(surface: sw.Surface, curvature: sw.Curvature) -> None:
     for _ in range(5):
         metric = sw.feature_metric(surface, curvature)
-        embedding = sw.embed(surface, metric)
+        embedding = sw.embed(surface, metric, max_error=0)
         fresh = sw.Surface(surface.points, surface.triangles)
 
         def run(seed: int) -> tuple:

@@ -45,7 +45,7 @@ def test_errors_are_those_of_files(tmp_path: Path) -> None:
     assert issubclass(sw.FileError, OSError)
     with pytest.raises(sw.FileError, match=r"no\.obj: the file cannot be opened"):
         sw.read_mesh(tmp_path / "no.obj")
-    with pytest.raises(sw.FileError, match=r"must end in \.obj, \.ply, \.stl or \.off"):
+    with pytest.raises(sw.FileError, match=r"must end in one of \.obj, \.ply, \.stl, \.off"):
         sw.read_mesh(tmp_path / "a.blend")
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0\n")
     with pytest.raises(sw.FileError, match=r"a\.obj, line 2: there are 2 numbers instead of 3"):

@@ -73,3 +73,28 @@ def test_wrong_specs_are_refused(family: str, options: dict[str, object], messag
 def test_making_one_can_be_cancelled(surface: sw.Surface) -> None:
     with pytest.raises(sw.Cancelled):
         sw.make_metric(surface, sw.MetricSpec("euclidean"), lambda _: False)
+
+
+def test_a_metric_of_ones_own_is_that_of_its_tensors(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    made = sw.feature_metric(surface, curvature, max_anisotropy=20.0)
+    own = sw.Metric(made.normals, made.tensors)
+    np.testing.assert_array_equal(own.tensors, made.tensors)
+    np.testing.assert_array_equal(own.normals, made.normals)
+    np.testing.assert_array_equal(sw.embed(surface, own).lengths, sw.embed(surface, made).lengths)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda normals, tensors: (normals, tensors[1:]), "one for each normal"),
+        (lambda normals, tensors: (normals, tensors[:, :2]), r"shape \(n, 3, 3\), got shape"),
+        (lambda normals, tensors: (normals, -tensors), "at vertex 0"),
+        (lambda normals, tensors: (normals, np.add(tensors, [[0, 0.1, 0], [0, 0, 0], [0, 0, 0]])), "not symmetric"),
+        (lambda normals, tensors: (normals * np.nan, tensors), "not finite"),
+        (lambda normals, tensors: (normals, "none"), "tensors: expected real numbers"),
+    ],
+)
+def test_wrong_tensors_are_refused(curvature: sw.Curvature, surface: sw.Surface, change: object, message: str) -> None:
+    made = sw.euclidean_metric(surface, curvature)
+    with pytest.raises(ValueError, match=message):
+        sw.Metric(*change(made.normals, np.array(made.tensors)))

@@ -36,7 +36,7 @@ def test_embeddings_say_which_lengths_are_not_the_metrics(embedding: sw.Embeddin
     points, triangles = meshes.torus(24, 12)
     flat = sw.Surface(points * [1, 1, 0.05], triangles)
     metric = sw.feature_metric(flat, sw.principal_curvatures(flat), follow="max", max_anisotropy=1000)
-    clamped = sw.embed(flat, metric)
+    clamped = sw.embed(flat, metric, max_error=0)
     assert clamped.clamped_edges > 0
     assert clamped.worst_clamp > 1
     assert f"{clamped.clamped_edges} lengths clamped, by up to {clamped.worst_clamp:.6g} times" in repr(clamped)
@@ -120,14 +120,11 @@ def test_wrong_parameters_are_value_errors(surface: sw.Surface, curvature: sw.Cu
         lambda: sw.concave_metric(surface, curvature, strength=-1),
         lambda: sw.smoothed_curvatures(other, curvature),
         lambda: sw.smoothed_curvatures(surface, curvature, radius=0),
-        lambda: sw.embed(other, metric),
-        lambda: sw.embed(surface, metric, sigma=-1),
-        lambda: sw.embed(surface, metric, sigma=nan),
-        lambda: sw.embed(surface, metric, perimeter="other"),
-        lambda: sw.embed(surface, metric, max_faces_added=-1),
+        lambda: sw.embed(other, metric, max_error=0),
+        lambda: sw.embed(surface, metric, max_faces_added=-1, max_error=0),
         lambda: sw.embed(surface, metric, max_error=-0.01),
         lambda: sw.embed(surface, metric, max_error=nan),
-        lambda: sw.embed(surface, metric, progress=1),
+        lambda: sw.embed(surface, metric, progress=1, max_error=0),
         lambda: sw.edge_wires(other, metric, 0),
         lambda: sw.edge_wires(surface, metric, 0, turning=-1),
         lambda: sw.edge_wires(surface, metric, 0, turning=nan),

@@ -24,7 +24,7 @@ def half_circle(**options: object) -> sw.Scribble:
 
 
 def wire(surface: sw.Surface, metric: sw.Metric) -> sw.Wire:
-    return sw.distance_field(sw.embed(surface, metric), 10 * 31 + 3).trace(10 * 31 + 27)
+    return sw.distance_field(sw.embed(surface, metric, max_error=0), 10 * 31 + 3).trace(10 * 31 + 27)
 
 
 def test_a_wire_follows_a_scribble(flat: tuple[sw.Surface, sw.Metric]) -> None:

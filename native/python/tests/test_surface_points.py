@@ -16,10 +16,10 @@ settings.load_profile("seamwire")
 POINTS, TRIANGLES = meshes.torus(12, 8)
 SURFACE = sw.Surface(POINTS, TRIANGLES)
 CURVATURE = sw.principal_curvatures(SURFACE)
-STRETCHED = sw.embed(SURFACE, sw.feature_metric(SURFACE, CURVATURE, max_anisotropy=20))
+STRETCHED = sw.embed(SURFACE, sw.feature_metric(SURFACE, CURVATURE, max_anisotropy=20), max_error=0)
 PLANE_POINTS, PLANE_TRIANGLES = meshes.grid(6)
 PLANE = sw.Surface(PLANE_POINTS, PLANE_TRIANGLES)
-FLAT = sw.embed(PLANE, sw.euclidean_metric(PLANE, sw.principal_curvatures(PLANE)))
+FLAT = sw.embed(PLANE, sw.euclidean_metric(PLANE, sw.principal_curvatures(PLANE)), max_error=0)
 
 
 def point_of(faces: int) -> st.SearchStrategy[tuple[int, tuple[float, float, float]]]:
@@ -101,7 +101,7 @@ def test_what_is_no_seed_is_refused(seed: object, message: str) -> None:
 def test_a_face_without_an_area_is_told_from_a_hole() -> None:
     # Three corners in a line: no metric makes a triangle of them, and none lies beside it.
     surface = sw.Surface([(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 1, 0)], [(0, 1, 2), (0, 2, 3)])
-    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)), max_error=0)
     assert len(embedding.hole_faces) == 0
     field = sw.distance_field(embedding, 3)
     for call in (field.distance, field.trace_to):
@@ -110,7 +110,7 @@ def test_a_face_without_an_area_is_told_from_a_hole() -> None:
     with pytest.raises(ValueError, match="seed: face 0 has no area"):
         sw.distance_field(embedding, (0, (0.2, 0.3, 0.5)))
     alone = sw.Surface([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
-    hole = sw.embed(alone, sw.euclidean_metric(alone, sw.principal_curvatures(alone)))
+    hole = sw.embed(alone, sw.euclidean_metric(alone, sw.principal_curvatures(alone)), max_error=0)
     assert hole.hole_faces.tolist() == [0]
     with pytest.raises(ValueError, match="point: face 0 is a hole of the embedding there"):
         sw.distance_field(hole, 0).distance(0, (0.2, 0.3, 0.5))
@@ -123,7 +123,9 @@ def test_long_traces_can_be_cancelled() -> None:
     points = np.stack([0.01 * x, np.tile([0.0, 1.0], count + 1), 0 * x], -1)
     first = 2 * np.arange(count, dtype=np.int32)[:, None, None]
     strip = sw.Surface(points, (first + np.array([(0, 2, 1), (1, 2, 3)], np.int32)).reshape(-1, 3))
-    field = sw.distance_field(sw.embed(strip, sw.euclidean_metric(strip, sw.principal_curvatures(strip))), 0)
+    field = sw.distance_field(
+        sw.embed(strip, sw.euclidean_metric(strip, sw.principal_curvatures(strip)), max_error=0), 0
+    )
     far, last = len(points) - 1, len(strip.triangles) - 1
     calls = {
         "trace": lambda progress: field.trace(far, progress=progress),

@@ -17,7 +17,7 @@ def test_isolines_of_exact_distances_on_a_plane_are_chords_of_circles() -> None:
     surface = grid(40)
     curvature = sw.principal_curvatures(surface)
     middle = 20 * 41 + 20
-    field = sw.distance_field(sw.embed(surface, sw.euclidean_metric(surface, curvature)), middle)
+    field = sw.distance_field(sw.embed(surface, sw.euclidean_metric(surface, curvature), max_error=0), middle)
     radii = [0.1, 0.2, 0.3, 0.45]
     segments, faces, levels = sw.isolines(surface, field.distances, radii)
     assert segments.shape[1:] == (2, 3)
@@ -175,7 +175,7 @@ def test_metric_lengths_are_those_of_edges_that_are_not_bisected(
 
 def test_an_embedding_takes_lengths_of_ones_own() -> None:
     surface = grid(12)
-    plain = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    plain = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)), max_error=0)
     stretched = surface.points * (3.0, 1.0, 1.0)
     ends = stretched[plain.edges]
     own = plain.with_lengths(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
@@ -202,7 +202,7 @@ def test_invalid_faces_are_those_that_are_bisected(
     pieces = np.bincount(embedding.source_face, minlength=len(surface.triangles))
     assert (pieces[faces] > 1).all()
     assert len(embedding.hole_faces) == len(embedding.repaired_faces) == 0
-    few = sw.embed(surface, metric, max_faces_added=2)
+    few = sw.embed(surface, metric, max_faces_added=2, max_error=0)
     assert few.invalid_left > 0
     pieces = np.bincount(few.source_face, minlength=len(surface.triangles))
     assert set(few.hole_faces) <= set(faces) | set(np.flatnonzero(pieces > 1))

@@ -15,7 +15,7 @@ POINTS, TRIANGLES = meshes.torus(6, 6)
 SURFACE = sw.Surface(POINTS, TRIANGLES)
 CURVATURE = sw.principal_curvatures(SURFACE)
 METRIC = sw.euclidean_metric(SURFACE, CURVATURE)
-EMBEDDING = sw.embed(SURFACE, METRIC)
+EMBEDDING = sw.embed(SURFACE, METRIC, max_error=0)
 FIELD = sw.distance_field(EMBEDDING, 0)
 UVS = POINTS[TRIANGLES][:, :, :2]
 POLYGONS = np.arange(len(TRIANGLES), dtype=np.int32)
@@ -179,7 +179,7 @@ ANY_NUMBERS: dict[tuple[str, str], Call] = {
     ("CutCurve", "image_of"): lambda bad: sw.CutCurve(POINTS[:2], 0, image_of=bad),
     ("DistanceField.closed_wires", "count"): lambda bad: FIELD.closed_wires(bad),
     ("flatten", "max_steps"): lambda bad: sw.flatten(POINTS, TRIANGLES, max_steps=bad),
-    ("embed", "max_faces_added"): lambda bad: sw.embed(SURFACE, METRIC, max_faces_added=bad),
+    ("embed", "max_faces_added"): lambda bad: sw.embed(SURFACE, METRIC, max_faces_added=bad, max_error=0),
 }
 
 

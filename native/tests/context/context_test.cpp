@@ -53,7 +53,7 @@ TEST(SurfaceContext, IsMadeOfASharedSurfaceThatIsNotConst) {
   const shapes::Mesh mesh = shapes::torus(12, 8);
   const auto surface = std::make_shared<Surface>(mesh.points, mesh.triangles);
   EXPECT_EQ(SurfaceContext(surface).surface(), surface);
-  EXPECT_EQ(EmbeddedSurface(surface, MetricSpec::euclidean()).context().surface(), surface);
+  EXPECT_EQ(EmbeddedSurface(surface, MetricSpec::euclidean(), {.max_error = 0}).context().surface(), surface);
   EXPECT_EQ(LiveWire(surface).surface(), surface);
   EXPECT_TRUE((std::is_constructible_v<SeamPlanner, std::shared_ptr<Surface>>));
 }
@@ -280,9 +280,9 @@ TEST(ComputedOnce, WhatAProgressFunctionThrowsIsForItsCallerAlone) {
 TEST(EmbeddedSurface, HasTheDistancesAndWiresOfItsParts) {
   const auto surface = bumpy_torus();
   const MetricSpec spec = MetricSpec::feature(Follow::kMax, {.max_anisotropy = 8.0});
-  const EmbeddedSurface embedded(SurfaceContext(surface), spec);
+  const EmbeddedSurface embedded(SurfaceContext(surface), spec, {.max_error = 0});
   const Metric metric = feature_metric(*surface, principal_curvatures(*surface), *spec.follow, spec.strength);
-  const Embedding embedding = embed(*surface, metric);
+  const Embedding embedding = embed(*surface, metric, {.max_error = 0});
   const DistanceField expected = ExactGeodesics(embedding.mesh).solve(7);
   EXPECT_EQ(embedded.spec(), spec);
   EXPECT_EQ(embedded.embedding().mesh.lengths, embedding.mesh.lengths);
@@ -303,7 +303,7 @@ TEST(EmbeddedSurface, HasTheDistancesAndWiresOfItsParts) {
 
 TEST(EmbeddedSurface, FindsAndBendsClosedWires) {
   const auto surface = shared(shapes::torus(40, 24));
-  const EmbeddedSurface embedded(SurfaceContext(surface), MetricSpec::euclidean());
+  const EmbeddedSurface embedded(SurfaceContext(surface), MetricSpec::euclidean(), {.max_error = 0});
   const EmbeddedField field = embedded.field(100);
   const std::vector<ClosedWire> cuts = field.closed_wires();
   ASSERT_FALSE(cuts.empty());
@@ -311,22 +311,22 @@ TEST(EmbeddedSurface, FindsAndBendsClosedWires) {
   const std::optional<BentWire> bent = field.bend(cuts[0]).through(SurfacePoint(103));
   ASSERT_TRUE(bent);
   EXPECT_EQ(bent->there.points.back(), surface->points()[103]);
-  const EmbeddedSurface other(embedded.context(), MetricSpec::euclidean(), {.max_faces_added = 10});
+  const EmbeddedSurface other(embedded.context(), MetricSpec::euclidean(), {.max_faces_added = 10, .max_error = 0});
   EXPECT_EQ(message_of([&] { other.field(100).bend(cuts[0]); }), "the cut is of another embedding");
 }
 
 TEST(EmbeddedSurface, OfOneContextMetricAndOptionsIsMadeOnce) {
   const SurfaceContext context(bumpy_torus());
   const MetricSpec spec = MetricSpec::concave();
-  EXPECT_FALSE(EmbeddedSurface::find(context, spec));
-  std::optional<EmbeddedSurface> one(std::in_place, context, spec);
-  EXPECT_EQ(EmbeddedSurface(context, spec), *one);
-  EXPECT_EQ(EmbeddedSurface::find(context, spec), *one);
-  EXPECT_NE(EmbeddedSurface(context, MetricSpec::concave({.parameter = 0.5})), *one);
-  EXPECT_NE(EmbeddedSurface(context, spec, {.max_faces_added = 10}), *one);
-  EXPECT_NE(EmbeddedSurface(SurfaceContext(context.surface()), spec), *one);
+  EXPECT_FALSE(EmbeddedSurface::find(context, spec, {.max_error = 0}));
+  std::optional<EmbeddedSurface> one(std::in_place, context, spec, EmbedOptions{.max_error = 0});
+  EXPECT_EQ(EmbeddedSurface(context, spec, {.max_error = 0}), *one);
+  EXPECT_EQ(EmbeddedSurface::find(context, spec, {.max_error = 0}), *one);
+  EXPECT_NE(EmbeddedSurface(context, MetricSpec::concave({.parameter = 0.5}), {.max_error = 0}), *one);
+  EXPECT_NE(EmbeddedSurface(context, spec, {.max_faces_added = 10, .max_error = 0}), *one);
+  EXPECT_NE(EmbeddedSurface(SurfaceContext(context.surface()), spec, {.max_error = 0}), *one);
   one.reset();
-  EXPECT_FALSE(EmbeddedSurface::find(context, spec)) << "nobody holds it any more";
+  EXPECT_FALSE(EmbeddedSurface::find(context, spec, {.max_error = 0})) << "nobody holds it any more";
 }
 
 TEST(EmbeddedSurface, OfAnyMetricIsNotFiledUnderASpec) {
@@ -335,21 +335,21 @@ TEST(EmbeddedSurface, OfAnyMetricIsNotFiledUnderASpec) {
   const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::concave()));
   static_assert(!std::is_constructible_v<EmbeddedSurface, const SurfaceContext&, const MetricSpec&,
                                          std::shared_ptr<const Metric>, const EmbedOptions&>);
-  const EmbeddedSurface any(context, metric), same(context, metric, Embedding(any.embedding()));
+  const EmbeddedSurface any(context, metric, {.max_error = 0}), same(context, metric, Embedding(any.embedding()));
   for (const EmbeddedSurface& embedded : {any, same, any.with_metric(metric)}) EXPECT_FALSE(embedded.spec());
-  EXPECT_FALSE(EmbeddedSurface::find(context, spec));
-  EXPECT_FALSE(EmbeddedSurface::find(context, MetricSpec::concave()));
-  EXPECT_EQ(EmbeddedSurface(context, spec).metric().tensors, make_metric(context, spec).tensors);
+  EXPECT_FALSE(EmbeddedSurface::find(context, spec, {.max_error = 0}));
+  EXPECT_FALSE(EmbeddedSurface::find(context, MetricSpec::concave(), {.max_error = 0}));
+  EXPECT_EQ(EmbeddedSurface(context, spec, {.max_error = 0}).metric().tensors, make_metric(context, spec).tensors);
 }
 
 TEST(EmbeddedSurface, InAnotherMetricIsTheOneMadeAnew) {
   const auto surface = bumpy_torus();
   const SurfaceContext context(surface);
-  const EmbeddedSurface plain(context, MetricSpec::euclidean());
+  const EmbeddedSurface plain(context, MetricSpec::euclidean(), {.max_error = 0});
   plain.geodesics();
   Scribble stroke{.points = {surface->points()[7], surface->points()[8]}, .faces = {}, .vertices = {7, 8}, .rings = 3};
   const auto drawn = std::make_shared<const Metric>(apply_scribbles(*surface, plain.metric(), std::vector{stroke}));
-  const EmbeddedSurface changed = plain.with_metric(drawn), fresh(context, drawn);
+  const EmbeddedSurface changed = plain.with_metric(drawn), fresh(context, drawn, {.max_error = 0});
   EXPECT_FALSE(changed.spec());
   EXPECT_EQ(changed.embedding().mesh.face_count(), fresh.embedding().mesh.face_count());
   EXPECT_NEAR(changed.field(0).distances().distances()[333], fresh.field(0).distances().distances()[333], 1e-12);
@@ -379,23 +379,23 @@ TEST(EmbeddedSurface, OfAnExistingEmbeddingKeepsItsOptions) {
 TEST(EmbeddedSurface, RefusesWhatIsNotPartOfIt) {
   const auto surface = shared(shapes::grid(4));
   const SurfaceContext context(surface);
-  const EmbeddedSurface embedded(context, MetricSpec::euclidean());
+  const EmbeddedSurface embedded(context, MetricSpec::euclidean(), {.max_error = 0});
   EXPECT_THROW(embedded.field(25), InvalidInput);
   EXPECT_THROW(embedded.field(std::vector<SurfacePoint>()), InvalidInput);
   EXPECT_THROW(embedded.locate({99, {1, 0, 0}}), InvalidInput);
   EXPECT_THROW(embedded.field(0).trace(25), InvalidInput);
-  EXPECT_THROW(EmbeddedSurface(context, MetricSpec::concave({})), InvalidInput);
-  EXPECT_THROW(EmbeddedSurface(context, std::shared_ptr<const Metric>()), InvalidInput);
+  EXPECT_THROW(EmbeddedSurface(context, MetricSpec::concave({}), {.max_error = 0}), InvalidInput);
+  EXPECT_THROW(EmbeddedSurface(context, std::shared_ptr<const Metric>(), {.max_error = 0}), InvalidInput);
   const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::euclidean()));
   const SurfaceContext other(shared(shapes::grid(5)));
-  EXPECT_THROW(EmbeddedSurface(other, metric), InvalidInput);
+  EXPECT_THROW(EmbeddedSurface(other, metric, {.max_error = 0}), InvalidInput);
   EXPECT_THROW(EmbeddedSurface(other, metric, embedded.embedding()), InvalidInput);
 }
 
 TEST(EmbeddedSurface, SaysWhyAFaceHasNoPoints) {
   const shapes::Mesh mesh{.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-2, 0, 0}},
                           .triangles = {{0, 1, 2}, {0, 3, 4}}};
-  const EmbeddedSurface embedded(SurfaceContext(shared(mesh)), MetricSpec::euclidean());
+  const EmbeddedSurface embedded(SurfaceContext(shared(mesh)), MetricSpec::euclidean(), {.max_error = 0});
   ASSERT_EQ(embedded.embedding().invalid_left, 1U);
   EXPECT_EQ(message_of([&] {
               embedded.locate({1, {0.2, 0.3, 0.5}}, "seed");
@@ -414,7 +414,7 @@ TEST(EmbeddedSurface, OutlivesItsContext) {
   std::optional<EmbeddedField> field;
   {
     const SurfaceContext context(bumpy_torus());
-    field = EmbeddedSurface(context, MetricSpec::euclidean()).field(0);
+    field = EmbeddedSurface(context, MetricSpec::euclidean(), {.max_error = 0}).field(0);
   }
   EXPECT_EQ(field->trace(100)->to, 100);
 }

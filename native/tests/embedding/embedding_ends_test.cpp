@@ -131,7 +131,8 @@ TEST(EmbeddingEnds, WhereThePapersSchemeDoesNot) {
   const Curvature curvature = principal_curvatures(surface);
   for (const double a : {15.0, 20.0, 30.0, 100.0, 1000.0}) {
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-      const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+      const Embedding embedding =
+          embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}), {.max_error = 0});
       EXPECT_FALSE(embedding.hit_cap) << a;
       EXPECT_EQ(embedding.invalid_left, 0U) << a;
       EXPECT_LT(embedding.faces_added, 200'000U) << a;
@@ -153,7 +154,7 @@ TEST(EmbeddingEnds, WithFewerHolesTheMoreTrianglesItMayAdd) {
     for (const std::size_t cap :
          {0,     1,     2,     5,     10,    30,     100,    200,    300,    500,    700,   1'000,
           1'500, 2'000, 3'000, 5'000, 7'000, 10'000, 19'999, 20'000, 20'001, 40'000, 80'000}) {
-      const Embedding embedding = embed(surface, metric, {.max_faces_added = cap});
+      const Embedding embedding = embed(surface, metric, {.max_faces_added = cap, .max_error = 0});
       EXPECT_LE(embedding.faces_added, cap);
       EXPECT_LE(embedding.invalid_left, before) << cap;
       EXPECT_EQ(embedding.hit_cap, embedding.invalid_left > 0) << cap;
@@ -170,13 +171,14 @@ TEST(EmbeddingEnds, ByNewestVertexBisectionWherePropagationGoesTooDeep) {
   const Surface surface = shapes::torus(24, 40).surface();
   const Curvature curvature = principal_curvatures(surface);
   const Embedding embedding =
-      embed(surface, feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 1000}));
+      embed(surface, feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 1000}), {.max_error = 0});
   EXPECT_GT(embedding.newest_bisections, 100U);
   EXPECT_FALSE(embedding.hit_cap);
   EXPECT_EQ(embedding.invalid_left, 0U);
   expect_sound(surface, embedding);
   // Where the paper's scheme ends there is no need of it.
-  const Embedding mild = embed(surface, feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 10}));
+  const Embedding mild =
+      embed(surface, feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 10}), {.max_error = 0});
   EXPECT_GT(mild.faces_added, 0U);
   EXPECT_EQ(mild.newest_bisections, 0U);
 }
@@ -187,7 +189,8 @@ TEST(EmbeddingEnds, OnBumpyShapesAtAnyAnisotropy) {
     const Curvature curvature = principal_curvatures(surface);
     for (const double a : {100.0, 1000.0}) {
       for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-        const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+        const Embedding embedding =
+            embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}), {.max_error = 0});
         EXPECT_FALSE(embedding.hit_cap) << a;
         EXPECT_EQ(embedding.invalid_left, 0U) << a;
         expect_sound(surface, embedding);
@@ -209,7 +212,7 @@ TEST_P(EmbeddingEndsOn, SliversAtAnyStrength) {
             std::pair("M_max", feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = a})),
             std::pair("random", random_metric(surface, curvature, a))}) {
         SCOPED_TRACE(name + ", " + kind + ", A = " + std::to_string(a));
-        const Embedding embedding = embed(surface, metric);
+        const Embedding embedding = embed(surface, metric, {.max_error = 0});
         EXPECT_FALSE(embedding.hit_cap);
         EXPECT_EQ(embedding.invalid_left, 0U);
         EXPECT_TRUE(embedding.unreachable.empty());
@@ -237,7 +240,7 @@ TEST_P(EmbeddingEndsOn, SliversWithABoundOnClampedLengths) {
       const Curvature curvature = principal_curvatures(surface);
       for (const Follow follow : {Follow::kMin, Follow::kMax}) {
         const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = double(a)});
-        const Embedding embedding = embed(surface, metric);
+        const Embedding embedding = embed(surface, metric, {.max_error = 0});
         added += embedding.faces_added;
         clamped += embedding.clamped_edges;
         worst = std::max(worst, embedding.worst_clamp);
@@ -258,7 +261,8 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
   const Curvature of_torus = principal_curvatures(torus);
   for (const double a : {2.0, 5.0, 10.0, 15.0, 20.0, 30.0}) {
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-      const Embedding embedding = embed(torus, feature_metric(torus, of_torus, follow, {.max_anisotropy = a}));
+      const Embedding embedding =
+          embed(torus, feature_metric(torus, of_torus, follow, {.max_anisotropy = a}), {.max_error = 0});
       EXPECT_EQ(embedding.clamped_edges, 0U) << a;
       EXPECT_EQ(embedding.worst_clamp, 1.0) << a;
       EXPECT_TRUE(embedding.repaired_faces.empty()) << a;
@@ -267,7 +271,8 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
   const Surface bumpy = shapes::bumpy(shapes::icosphere(3), 0.05).surface();
   const Curvature of_bumpy = principal_curvatures(bumpy);
   for (const double a : {10.0, 30.0, 100.0}) {
-    const Embedding embedding = embed(bumpy, feature_metric(bumpy, of_bumpy, Follow::kMax, {.max_anisotropy = a}));
+    const Embedding embedding =
+        embed(bumpy, feature_metric(bumpy, of_bumpy, Follow::kMax, {.max_anisotropy = a}), {.max_error = 0});
     EXPECT_EQ(embedding.clamped_edges, 0U) << a;
   }
   for (const double aspect : {1.0, 3.0, 10.0}) {
@@ -277,7 +282,8 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
       for (const double a : {10.0, 30.0, 100.0, 1000.0}) {
         if (aspect > 3 && a > 30) continue;
         for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-          const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+          const Embedding embedding =
+              embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}), {.max_error = 0});
           EXPECT_EQ(embedding.clamped_edges, 0U) << name << ", aspect " << aspect << ", A = " << a;
         }
       }
@@ -288,7 +294,8 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
     const Curvature curvature = principal_curvatures(surface);
     for (const double a : {5.0, 20.0, 100.0, 1000.0}) {
       for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-        const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+        const Embedding embedding =
+            embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}), {.max_error = 0});
         EXPECT_LE(embedding.clamped_edges, a > 100 ? 300U : 0U) << name << ", A = " << a;
         EXPECT_LE(embedding.worst_clamp, a > 100 ? 5.5 : 1.0) << name << ", A = " << a;
       }
@@ -296,7 +303,8 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
   }
   const Surface sliver = slivers(100)[3].mesh.surface();
   const Embedding embedding =
-      embed(sliver, feature_metric(sliver, principal_curvatures(sliver), Follow::kMin, {.max_anisotropy = 1000}));
+      embed(sliver, feature_metric(sliver, principal_curvatures(sliver), Follow::kMin, {.max_anisotropy = 1000}),
+            {.max_error = 0});
   EXPECT_GT(embedding.clamped_edges, 10U);
   // An edge has two triangles, of one face.
   EXPECT_FALSE(embedding.repaired_faces.empty());
@@ -310,7 +318,7 @@ TEST(EmbeddingEnds, WithDistancesThatPathsHave) {
   const Surface surface = slivers(10)[3].mesh.surface();
   const Curvature curvature = principal_curvatures(surface);
   const Embedding embedding =
-      embed(surface, feature_metric(surface, curvature, Follow::kMin, {.max_anisotropy = 1000}));
+      embed(surface, feature_metric(surface, curvature, Follow::kMin, {.max_anisotropy = 1000}), {.max_error = 0});
   ASSERT_GT(embedding.faces_added, 0U);
   expect_sound(surface, embedding);
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
@@ -336,7 +344,8 @@ TEST(EmbeddingEnds, WithAtMostHalfAsManyTrianglesAgainWhereThePapersSchemeEnds) 
         const auto papers = added_by_papers_scheme(surface, metric, 40'000);
         ++(papers ? ended : did_not);
         if (papers) {
-          EXPECT_LE(static_cast<double>(embed(surface, metric).faces_added), 1.5 * static_cast<double>(*papers))
+          EXPECT_LE(static_cast<double>(embed(surface, metric, {.max_error = 0}).faces_added),
+                    1.5 * static_cast<double>(*papers))
               << name << ", A = " << a;
         }
       }

@@ -58,7 +58,7 @@ TEST(Embed, AConstantTensorOnAPlaneLeavesNothingToBisect) {
   for (const double a : {1.0, 5.0, 20.0, 100.0}) {
     for (const double angle : {0.0, 0.4, 1.1, 2.9}) {
       const Metric metric = plane_metric(surface, a, 1 / a, angle);
-      const Embedding embedding = embed(surface, metric);
+      const Embedding embedding = embed(surface, metric, {.max_error = 0});
       EXPECT_EQ(embedding.invalid_before, 0U);
       EXPECT_EQ(embedding.faces_added, 0U);
       EXPECT_EQ(embedding.invalid_left, 0U);
@@ -79,7 +79,7 @@ TEST(Embed, AConstantTensorOnAPlaneLeavesNothingToBisect) {
 TEST(Embed, RefinesUntilEveryTriangleIsValid) {
   const Surface surface = shapes::grid(12, 0.2).surface();
   for (const double a : {3.0, 10.0, 30.0}) {
-    const Embedding embedding = embed(surface, random_metric(surface, a, 3));
+    const Embedding embedding = embed(surface, random_metric(surface, a, 3), {.max_error = 0});
     EXPECT_GT(embedding.invalid_before, 0U);
     EXPECT_GT(embedding.faces_added, 0U);
     EXPECT_EQ(embedding.invalid_left, 0U);
@@ -102,7 +102,7 @@ struct Strong {
 
 TEST(InvalidFaces, AreTheOnesThatAreBisected) {
   const Strong on(shapes::bumpy(shapes::icosphere(3), 0.05));
-  const Embedding embedding = embed(on.surface, on.metric);
+  const Embedding embedding = embed(on.surface, on.metric, {.max_error = 0});
   const std::vector<std::int32_t> faces = invalid_faces(on.surface, on.metric);
   EXPECT_GT(faces.size(), 20U);
   EXPECT_EQ(faces.size(), embedding.invalid_before);
@@ -115,12 +115,12 @@ TEST(InvalidFaces, HaveTheCallersNumbersWhereFacesAreLeftOutOrHaveNoArea) {
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 0}},
                         {{0, 0, 1}, {0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 3}});
   EXPECT_EQ(invalid_faces(surface, identity_metric(surface)), std::vector<std::int32_t>{2});
-  EXPECT_EQ(embed(surface, identity_metric(surface)).invalid_before, 1U);
+  EXPECT_EQ(embed(surface, identity_metric(surface), {.max_error = 0}).invalid_before, 1U);
 }
 
 TEST(Embed, NamesTheFacesThatHolesAreIn) {
   const Strong on(shapes::bumpy(shapes::icosphere(3), 0.05));
-  const Embedding embedding = embed(on.surface, on.metric, {.max_faces_added = 4});
+  const Embedding embedding = embed(on.surface, on.metric, {.max_faces_added = 4, .max_error = 0});
   ASSERT_GT(embedding.invalid_left, 0U);
   EXPECT_FALSE(embedding.hole_faces.empty());
   EXPECT_LE(embedding.hole_faces.size(), embedding.invalid_left);
@@ -142,7 +142,7 @@ TEST(Embed, NewVerticesAreInTheCallersCoordinates) {
   Mesh mesh = shapes::grid(6);
   for (Vector& p : mesh.points) p = Vector(100, 200, 300) + 50 * p;
   const Surface surface = mesh.surface();
-  const Embedding embedding = embed(surface, random_metric(surface, 10, 3));
+  const Embedding embedding = embed(surface, random_metric(surface, 10, 3), {.max_error = 0});
   ASSERT_GT(embedding.mesh.vertex_count, 49);
   expect_sound(surface, embedding);
 }
@@ -159,12 +159,12 @@ TEST(Embed, DoesNotDependOnTheScaleOfTheInput) {
     metric.normals.push_back(n);
     metric.tensors.push_back(12 * e1 * e1.transpose() + n.cross(e1) * n.cross(e1).transpose() / 12);
   }
-  const Embedding expected = embed(one, metric);
+  const Embedding expected = embed(one, metric, {.max_error = 0});
   ASSERT_GT(expected.faces_added, 100U);
   for (const double scale : {1e-3, 0.7, 3.0, 12345.678}) {
     Mesh scaled = mesh;
     for (Vector& p : scaled.points) p *= scale;
-    const Embedding embedding = embed(scaled.surface(), metric);
+    const Embedding embedding = embed(scaled.surface(), metric, {.max_error = 0});
     ASSERT_EQ(embedding.mesh.triangles, expected.mesh.triangles) << scale;
     EXPECT_EQ(embedding.mesh.twins, expected.mesh.twins);
     for (std::size_t h = 0; h < embedding.mesh.lengths.size(); ++h) {
@@ -176,7 +176,7 @@ TEST(Embed, DoesNotDependOnTheScaleOfTheInput) {
 TEST(Embed, GivesTheSameEveryTime) {
   const Surface surface = shapes::grid(12).surface();
   const Metric metric = random_metric(surface, 10, 3);
-  const Embedding a = embed(surface, metric), b = embed(surface, metric);
+  const Embedding a = embed(surface, metric, {.max_error = 0}), b = embed(surface, metric, {.max_error = 0});
   EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
   EXPECT_EQ(a.mesh.lengths, b.mesh.lengths);
 }
@@ -184,9 +184,9 @@ TEST(Embed, GivesTheSameEveryTime) {
 TEST(Embed, StopsAtTheCapAndLeavesHolesWithEdgesToRunAlong) {
   const Surface surface = shapes::grid(12).surface();
   const Metric metric = random_metric(surface, 10, 3);
-  const std::size_t needed = embed(surface, metric).faces_added;
+  const std::size_t needed = embed(surface, metric, {.max_error = 0}).faces_added;
   for (const std::size_t cap : {std::size_t{0}, std::size_t{1}, needed / 3}) {
-    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap});
+    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap, .max_error = 0});
     EXPECT_LE(embedding.faces_added, cap);
     EXPECT_TRUE(embedding.hit_cap);
     EXPECT_GT(embedding.invalid_left, 0U);
@@ -198,73 +198,49 @@ TEST(Embed, StopsAtTheCapAndLeavesHolesWithEdgesToRunAlong) {
     for (const LooseEdge& edge : embedding.mesh.loose_edges) EXPECT_GT(edge.length, 0);
   }
   // Where the cap is all that this scheme lacks, the others are tried.
-  const Embedding otherwise = embed(surface, metric, {.max_faces_added = needed - 1});
+  const Embedding otherwise = embed(surface, metric, {.max_faces_added = needed - 1, .max_error = 0});
   EXPECT_LT(otherwise.faces_added, needed);
   EXPECT_FALSE(otherwise.hit_cap);
   EXPECT_EQ(otherwise.invalid_left, 0U);
-  const Embedding enough = embed(surface, metric, {.max_faces_added = needed});
+  const Embedding enough = embed(surface, metric, {.max_faces_added = needed, .max_error = 0});
   EXPECT_FALSE(enough.hit_cap);
   EXPECT_EQ(enough.invalid_left, 0U);
-}
-
-TEST(Embed, LeavesInvalidTrianglesSmallerThanSigma) {
-  const Surface surface = shapes::grid(12).surface();
-  const Metric metric = random_metric(surface, 10, 3);
-  const Embedding all = embed(surface, metric);
-  for (const Perimeter perimeter : {Perimeter::kMetric, Perimeter::kEuclidean}) {
-    for (const double sigma : {1e-3, 0.05, 0.2, 100.0}) {
-      const Embedding embedding = embed(surface, metric, {.sigma = sigma, .perimeter = perimeter});
-      EXPECT_EQ(embedding.faces_added > 0, sigma < 100);
-      // The longest edge of an invalid triangle is half of its perimeter or more, the perimeter less than sigma.
-      if (perimeter == Perimeter::kMetric) {
-        for (const LooseEdge& edge : embedding.mesh.loose_edges) EXPECT_LT(edge.length, sigma);
-      }
-      EXPECT_FALSE(embedding.hit_cap);
-      EXPECT_EQ(embedding.mesh.face_count() + embedding.invalid_left, surface.face_count() + embedding.faces_added);
-      expect_sound(surface, embedding);
-    }
-  }
-  // In Euclid's measure a cell has perimeter (2 + sqrt 2) / 12 = .2845: above it nothing is bisected, below it all are.
-  EXPECT_EQ(embed(surface, metric, {.sigma = 0.285, .perimeter = Perimeter::kEuclidean}).faces_added, 0U);
-  EXPECT_GE(embed(surface, metric, {.sigma = 0.284, .perimeter = Perimeter::kEuclidean}).faces_added,
-            all.invalid_before / 2);
 }
 
 // Step by step: of the invalid triangles, the one bisected next has the largest perimeter.
 TEST(Embed, SplitsLargestPerimeterFirst) {
   const Surface surface = shapes::grid(12, 0.2).surface();
   const Metric metric = random_metric(surface, 10, 3);
-  for (const Perimeter kind : {Perimeter::kMetric, Perimeter::kEuclidean}) {
-    const EmbedOptions options{.perimeter = kind};
-    Bisection bisection(BisectedMesh({surface, metric, options}, {}, 0.0), options, Scheme::kLongestEdge);
-    const BisectedMesh& mesh = bisection.mesh();
-    double progress = 0;
-    ASSERT_FALSE(bisection.run({}, 0, progress));
-    int steps = 0;
-    for (bool is_done = false; !is_done && steps < 200; ++steps) {
-      float largest = 0;  // as rounded as the order is
-      for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
-        if (!mesh.is_valid(f)) largest = std::max(largest, static_cast<float>(mesh.perimeter(f, kind)));
-      }
-      std::vector<std::int32_t> first;
-      for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
-        if (!mesh.is_valid(f) && static_cast<float>(mesh.perimeter(f, kind)) == largest) first.push_back(f);
-      }
-      const std::vector<Triangle> before = mesh.triangles;
-      is_done = bisection.work_off({}, mesh.faces_added() + 2, progress);
-      const bool is_first =
-          std::ranges::any_of(first, [&](std::int32_t f) { return mesh.triangles[at(f)] != before[at(f)]; });
-      ASSERT_TRUE(is_first) << "step " << steps;
+  const EmbedOptions options{.max_error = 0};
+  Bisection bisection(BisectedMesh({surface, metric, options}, {}, 0.0), options, Scheme::kLongestEdge);
+  const BisectedMesh& mesh = bisection.mesh();
+  double progress = 0;
+  ASSERT_FALSE(bisection.run({}, 0, progress));
+  int steps = 0;
+  for (bool is_done = false; !is_done && steps < 200; ++steps) {
+    float largest = 0;  // as rounded as the order is
+    for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
+      if (!mesh.is_valid(f)) largest = std::max(largest, static_cast<float>(mesh.perimeter(f)));
     }
-    EXPECT_GT(steps, 50);
+    std::vector<std::int32_t> first;
+    for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
+      if (!mesh.is_valid(f) && static_cast<float>(mesh.perimeter(f)) == largest) first.push_back(f);
+    }
+    const std::vector<Triangle> before = mesh.triangles;
+    is_done = bisection.work_off({}, mesh.faces_added() + 2, progress);
+    const bool is_first =
+        std::ranges::any_of(first, [&](std::int32_t f) { return mesh.triangles[at(f)] != before[at(f)]; });
+    ASSERT_TRUE(is_first) << "step " << steps;
   }
+  EXPECT_GT(steps, 50);
 }
 
 // Neighbors agree on their edges, and no vertex lies within an edge, also where a chain of neighbors was bisected.
 TEST(Embed, StaysConformingWhereItLeavesThePapersScheme) {
   const Surface surface = shapes::torus(24, 40).surface();
   const Embedding embedding =
-      embed(surface, feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 20}));
+      embed(surface, feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 20}),
+            {.max_error = 0});
   ASSERT_GT(embedding.faces_added, 20'000U);  // more than the paper's scheme may add here
   EXPECT_EQ(std::ranges::count_if(embedding.mesh.twins, [](std::int32_t twin) { return twin < 0; }), 0);
   // A closed surface of genus 1: a vertex within an edge would leave gaps.
@@ -276,13 +252,13 @@ TEST(Embed, BisectsBoundaryEdges) {
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {0.5, 0.4, 0}}, {{0, 1, 2}});
   Metric metric = plane_metric(surface, 1, 1, 0);
   metric.tensors[0] *= 100;
-  const Embedding embedding = embed(surface, metric);
+  const Embedding embedding = embed(surface, metric, {.max_error = 0});
   EXPECT_EQ(embedding.invalid_left, 0U);
   EXPECT_EQ(embedding.mesh.face_count(), 1 + embedding.faces_added);
   expect_sound(surface, embedding);
   metric.tensors[0] *= 1e-4;
   metric.tensors[2] *= 1e-4;
-  const Embedding another = embed(surface, metric);
+  const Embedding another = embed(surface, metric, {.max_error = 0});
   EXPECT_GT(another.faces_added, 0U);
   expect_sound(surface, another);
 }
@@ -293,12 +269,12 @@ TEST(Embed, KeepsOneNumberForAVertexOfSeveralFans) {
                         {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 5, 6}});
   ASSERT_EQ(surface.report().nonmanifold_edges.size(), 1U);
   Metric metric = identity_metric(surface);
-  const Embedding plain = embed(surface, metric);
+  const Embedding plain = embed(surface, metric, {.max_error = 0});
   EXPECT_EQ(plain.mesh.triangles, surface.triangles());
   EXPECT_EQ(plain.mesh.twins, std::vector<std::int32_t>(12, -1));
   // Strong enough that faces of every fan are bisected.
   metric.tensors[1] *= 1e4;
-  const Embedding embedding = embed(surface, metric);
+  const Embedding embedding = embed(surface, metric, {.max_error = 0});
   for (std::int32_t f = 0; f < 4; ++f) EXPECT_GE(std::ranges::count(embedding.source_face, f), 2);
   EXPECT_EQ(embedding.invalid_left, 0U);
   expect_sound(surface, embedding);
@@ -309,7 +285,7 @@ TEST(Embed, KeepsOneNumberForAVertexOfSeveralFans) {
 TEST(Embed, CarriesEdgesWithoutFaces) {
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {3, 3, 3}}, {{0, 1, 2}},
                         std::vector<Edge>{{0, 1}, {1, 3}});
-  const Embedding embedding = embed(surface, identity_metric(surface));
+  const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
   ASSERT_EQ(embedding.mesh.loose_edges.size(), 1U);
   EXPECT_EQ(embedding.mesh.loose_edges[0].a, 1);
   EXPECT_EQ(embedding.mesh.loose_edges[0].b, 3);
@@ -323,7 +299,7 @@ TEST(Embed, FlipsFacesWithACornerOnTheOppositeEdge) {
     const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {t, t, 0}},
                           {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 3}});
     ASSERT_EQ(surface.report().zero_area_faces, std::vector<std::int32_t>{1});
-    const Embedding embedding = embed(surface, identity_metric(surface));
+    const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
     EXPECT_EQ(embedding.invalid_before, 1U);
     EXPECT_EQ(embedding.invalid_left, 0U);
     EXPECT_EQ(embedding.mesh.face_count(), 4U);
@@ -351,7 +327,7 @@ TEST(Embed, RemovesTheFacesThatTheReportListsAndNoOthers) {
       const bool is_listed = !surface.report().zero_area_faces.empty();
       EXPECT_EQ(is_listed, part < 1e-9) << part;
       ++(is_listed ? listed : others);
-      const Embedding embedding = embed(surface, identity_metric(surface));
+      const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
       EXPECT_EQ(std::ranges::count(embedding.source_face, 1) == 0, is_listed) << part;
       EXPECT_EQ(embedding.invalid_left, 0U) << part;
     }
@@ -365,7 +341,7 @@ TEST(Embed, MergesVerticesAtTheSamePlace) {
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 0}, {.5, .5, 0}},
                         {{0, 1, 4}, {1, 2, 5}, {2, 3, 5}, {3, 0, 4}, {1, 5, 4}, {3, 4, 5}});
   ASSERT_EQ(surface.report().zero_area_faces.size(), 2U);
-  const Embedding embedding = embed(surface, identity_metric(surface));
+  const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
   EXPECT_EQ(embedding.invalid_before, 2U);
   EXPECT_EQ(embedding.invalid_left, 0U);
   EXPECT_EQ(embedding.mesh.face_count(), 4U);
@@ -394,11 +370,11 @@ TEST(Embed, CountsOnlyFacesWithoutAnAreaThatItIsAskedFor) {
   const Surface surface = mesh.surface();
   ASSERT_EQ(surface.report().zero_area_faces, (std::vector<std::int32_t>{1, 4}));
   const auto invalid = [&](const std::vector<std::int32_t>& faces) {
-    const Embedding embedding = embed(surface, identity_metric(surface), {.faces = faces});
+    const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0, .faces = faces});
     EXPECT_EQ(embedding.invalid_left, 0U);
     return embedding.invalid_before;
   };
-  EXPECT_EQ(embed(surface, identity_metric(surface)).invalid_before, 2U);
+  EXPECT_EQ(embed(surface, identity_metric(surface), {.max_error = 0}).invalid_before, 2U);
   EXPECT_EQ(invalid({0, 1, 2, 3, 4, 5, 6}), 2U);
   EXPECT_EQ(invalid({0, 1, 2}), 1U);
   EXPECT_EQ(invalid({1, 6}), 1U);
@@ -420,7 +396,7 @@ TEST(Embed, MendsManyFacesWithoutAnAreaAtOnce) {
   }
   const Surface surface = mesh.surface();
   ASSERT_EQ(surface.report().boundary_edges, 4U);
-  const Embedding embedding = embed(surface, identity_metric(surface));
+  const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
   EXPECT_EQ(embedding.invalid_before, static_cast<std::size_t>(n - 1));
   EXPECT_EQ(embedding.invalid_left, 0U);
   EXPECT_EQ(std::ranges::count(embedding.mesh.twins, -1), 4);
@@ -431,7 +407,7 @@ TEST(Embed, MendsManyFacesWithoutAnAreaAtOnce) {
 TEST(Embed, EndsOnFacesWithoutAnAreaThatNothingMends) {
   // A face in line on its own, one point three times, and two faces back to back.
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}, {5, 5, 5}, {5, 5, 5}}, {{0, 1, 2}, {3, 4, 5}});
-  const Embedding embedding = embed(surface, identity_metric(surface));
+  const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
   EXPECT_EQ(embedding.invalid_before, 2U);
   EXPECT_EQ(embedding.faces_added, 0U);
   EXPECT_EQ(embedding.mesh.face_count(), 0U);
@@ -444,14 +420,14 @@ TEST(Embed, EndsOnFacesWithoutAnAreaThatNothingMends) {
 TEST(Embed, NamesVerticesThatNothingLeadsTo) {
   // Face 1 is one vertex three times: it has no edge.
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {3, 3, 3}});
-  EXPECT_EQ(embed(surface, identity_metric(surface)).unreachable, std::vector<std::int32_t>{3});
+  EXPECT_EQ(embed(surface, identity_metric(surface), {.max_error = 0}).unreachable, std::vector<std::int32_t>{3});
 }
 
 TEST(Embed, TakesTensorsThatDifferByManyOrders) {
   const Surface surface = shapes::grid(4).surface();
   Metric metric = random_metric(surface, 1000, 1);
   metric.tensors[12] *= 1e12;
-  const Embedding embedding = embed(surface, metric, {.max_faces_added = 20'000});
+  const Embedding embedding = embed(surface, metric, {.max_faces_added = 20'000, .max_error = 0});
   expect_sound(surface, embedding);
   EXPECT_EQ(std::ranges::count(connected_to(embedding.mesh, 0), false), 0);
 }
@@ -461,35 +437,37 @@ TEST(Embed, RefusesAMetricThatDoesNotFit) {
   Metric metric = plane_metric(surface, 1, 1, 0);
   metric.tensors[5](1, 2) = std::numeric_limits<double>::quiet_NaN();
   try {
-    embed(surface, metric);
+    embed(surface, metric, {.max_error = 0});
     ADD_FAILURE() << "nothing thrown";
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("vertex 5 "), std::string::npos) << error.what();
   }
   metric.tensors[5] = 1e151 * Eigen::Matrix3d::Identity();
-  EXPECT_THROW(embed(surface, metric), InvalidInput) << "areas of its triangles would not be numbers";
+  EXPECT_THROW(embed(surface, metric, {.max_error = 0}), InvalidInput) << "areas of its triangles would not be numbers";
   metric.tensors.pop_back();
-  EXPECT_THROW(embed(surface, metric), InvalidInput);
+  EXPECT_THROW(embed(surface, metric, {.max_error = 0}), InvalidInput);
   const Metric good = plane_metric(surface, 1, 1, 0);
-  EXPECT_THROW(embed(surface, good, {.sigma = -1}), InvalidInput);
-  EXPECT_THROW(embed(surface, good, {.sigma = std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
+  EXPECT_THROW(embed(surface, good, {.max_error = -1}), InvalidInput);
+  EXPECT_THROW(embed(surface, good, {.max_error = std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
 }
 
 TEST(Embed, ReportsProgressAndStopsWhenTold) {
   const Surface surface = shapes::grid(40).surface();
   const Metric metric = random_metric(surface, 30, 3);
   std::vector<double> seen;
-  embed(surface, metric, {}, {.stop = {}, .progress = [&](double done) { return seen.push_back(done), true; }});
+  embed(surface, metric, {.max_error = 0},
+        {.stop = {}, .progress = [&](double done) { return seen.push_back(done), true; }});
   ASSERT_GE(seen.size(), 4U);
   EXPECT_TRUE(std::ranges::is_sorted(seen));
   EXPECT_GE(seen.front(), 0);
   EXPECT_EQ(seen.back(), 1);
   std::size_t calls = 0;
-  EXPECT_THROW(embed(surface, metric, {}, {.stop = {}, .progress = [&](double) { return ++calls < 3; }}), Cancelled);
+  EXPECT_THROW(embed(surface, metric, {.max_error = 0}, {.stop = {}, .progress = [&](double) { return ++calls < 3; }}),
+               Cancelled);
   EXPECT_EQ(calls, 3U);
   std::stop_source source;
   source.request_stop();
-  EXPECT_THROW(embed(surface, metric, {}, {.stop = source.get_token(), .progress = {}}), Cancelled);
+  EXPECT_THROW(embed(surface, metric, {.max_error = 0}, {.stop = source.get_token(), .progress = {}}), Cancelled);
 }
 
 TEST(Embed, RepairsTheDegenerateFacesOfASurfaceOnce) {
@@ -502,12 +480,12 @@ TEST(Embed, RepairsTheDegenerateFacesOfASurfaceOnce) {
   ASSERT_FALSE(needle.empty());
   const auto& cleaned = *detail::corner_fans(surface).cleaned;
   EXPECT_FALSE(cleaned.peek());
-  const Embedding whole = embed(surface, metric);
+  const Embedding whole = embed(surface, metric, {.max_error = 0});
   const auto made = cleaned.peek();
   ASSERT_TRUE(made);
   std::vector<std::int32_t> around = needle;
   for (const std::int32_t f : {needle.front() - 1, needle.front() + 1}) around.push_back(f);
-  const Embedding some = embed(copy, metric, {.faces = around});
+  const Embedding some = embed(copy, metric, {.max_error = 0, .faces = around});
   EXPECT_EQ(detail::corner_fans(copy).cleaned->peek(), made) << "copies of a surface share it";
   // The same triangles as in the whole.
   std::set<Triangle> all(whole.mesh.triangles.begin(), whole.mesh.triangles.end());

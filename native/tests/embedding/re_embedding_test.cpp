@@ -67,7 +67,7 @@ TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
     const Metric base = feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 8});
     std::vector<Scribble> scribbles;
     Metric former = base;
-    Embedding embedding = embed(surface, base);
+    Embedding embedding = embed(surface, base, {.max_error = 0});
     int local = 0, in_part = 0;
     for (int step = 0; step < 25; ++step) {
       // Mostly added, sometimes one in the middle of the list removed.
@@ -78,22 +78,22 @@ TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
       }
       Metric metric = apply_scribbles(surface, base, scribbles);
       local += embedding.is_local;
-      embedding = re_embed(surface, former, metric, embedding);
+      embedding = re_embed(surface, former, metric, embedding, {.max_error = 0});
       in_part += embedding.faces_embedded < surface.face_count() / 2;
-      expect_same(surface, embedding, embed(surface, metric));
+      expect_same(surface, embedding, embed(surface, metric, {.max_error = 0}));
       former = std::move(metric);
     }
     EXPECT_GT(local, 15) << "hardly anything was done locally";
     EXPECT_GT(in_part, 15) << "hardly anything was left as it was";
-    const Embedding back = re_embed(surface, former, base, embedding);
-    expect_same(surface, back, embed(surface, base));
+    const Embedding back = re_embed(surface, former, base, embedding, {.max_error = 0});
+    expect_same(surface, back, embed(surface, base, {.max_error = 0}));
   }
 }
 
 TEST(ReEmbed, IsEmbeddingFromScratchWhereTheMetricChangesEverywhereAtRandom) {
   const Surface surface = shapes::grid(24, 0.2).surface();
   Metric former = random_metric(surface, 6, 1);
-  Embedding embedding = embed(surface, former);
+  Embedding embedding = embed(surface, former, {.max_error = 0});
   std::mt19937 random(5);
   for (unsigned step = 0; step < 12; ++step) {
     const Metric other = random_metric(surface, 6, 2 + step);
@@ -102,8 +102,8 @@ TEST(ReEmbed, IsEmbeddingFromScratchWhereTheMetricChangesEverywhereAtRandom) {
       if (random() % 40 == 0) metric.tensors[v] = other.tensors[v];
     }
     EXPECT_TRUE(embedding.is_local);
-    embedding = re_embed(surface, former, metric, embedding);
-    expect_same(surface, embedding, embed(surface, metric));
+    embedding = re_embed(surface, former, metric, embedding, {.max_error = 0});
+    expect_same(surface, embedding, embed(surface, metric, {.max_error = 0}));
     former = std::move(metric);
   }
 }
@@ -114,25 +114,29 @@ TEST(ReEmbed, TakesSurfacesThatAreCutOpenAndOtherNormals) {
   const Metric former = euclidean_metric(surface, principal_curvatures(surface));
   Metric metric = former;
   for (std::size_t v = 0; v < 10; ++v) metric.tensors[v] *= 9;
-  expect_same(surface, re_embed(surface, former, metric, embed(surface, former)), embed(surface, metric));
+  expect_same(surface, re_embed(surface, former, metric, embed(surface, former, {.max_error = 0}), {.max_error = 0}),
+              embed(surface, metric, {.max_error = 0}));
   const Surface grid = shapes::grid(12).surface();
   const Metric random = random_metric(grid, 10, 3);
   const Metric identity = identity_metric(grid);
-  expect_same(grid, re_embed(grid, random, identity, embed(grid, random)), embed(grid, identity));
+  expect_same(grid, re_embed(grid, random, identity, embed(grid, random, {.max_error = 0}), {.max_error = 0}),
+              embed(grid, identity, {.max_error = 0}));
   Mesh needles = shapes::grid(12);
   needles.points[30] = needles.points[31];
   const Surface degenerate = needles.surface();
   ASSERT_FALSE(degenerate.report().zero_area_faces.empty());
-  expect_same(degenerate, re_embed(degenerate, random, identity, embed(degenerate, random)),
-              embed(degenerate, identity));
-  EXPECT_THROW(re_embed(grid, random, random, embed(surface, former)), InvalidInput);
-  EXPECT_THROW(re_embed(grid, random, former, embed(grid, random)), InvalidInput);
+  expect_same(degenerate,
+              re_embed(degenerate, random, identity, embed(degenerate, random, {.max_error = 0}), {.max_error = 0}),
+              embed(degenerate, identity, {.max_error = 0}));
+  EXPECT_THROW(re_embed(grid, random, random, embed(surface, former, {.max_error = 0}), {.max_error = 0}),
+               InvalidInput);
+  EXPECT_THROW(re_embed(grid, random, former, embed(grid, random, {.max_error = 0}), {.max_error = 0}), InvalidInput);
 }
 
 TEST(ReEmbed, IsEmbeddingFromScratchWithAnErrorOrSomeFaces) {
   const Surface grid = shapes::grid(12).surface();
   const Metric former = random_metric(grid, 10, 3), metric = random_metric(grid, 10, 4);
-  const Embedding old = embed(grid, former);
+  const Embedding old = embed(grid, former, {.max_error = 0});
   ASSERT_TRUE(old.is_local);
   for (EmbedOptions options :
        {EmbedOptions{.max_error = 0.05}, EmbedOptions{.faces = std::vector<std::int32_t>{3, 4, 40}}}) {
@@ -143,25 +147,25 @@ TEST(ReEmbed, IsEmbeddingFromScratchWithAnErrorOrSomeFaces) {
     EXPECT_EQ(made.resolution.has_value(), options.max_error > 0);
   }
   EXPECT_THROW(re_embed(grid, former, metric, old, {.max_error = -1.0}), InvalidInput);
-  EXPECT_THROW(re_embed(grid, former, metric, old, {.sigma = -1.0}), InvalidInput);
+  EXPECT_THROW(re_embed(grid, former, metric, old, {.max_error = -1.0}), InvalidInput);
 }
 
 // The work, not the time, which other processes share in: a scribble is far smaller than the surface.
 TEST(ReEmbed, LeavesWhatIsFarAwayWhereItIs) {
   const Surface surface = shapes::grid(100, 0.2).surface();
   const Metric former = random_metric(surface, 3, 3);
-  Embedding old = embed(surface, former);
+  Embedding old = embed(surface, former, {.max_error = 0});
   Metric metric = former;
   metric.tensors[0] = Vector(40, 0.1, 0).asDiagonal();
   const std::vector<double> before = old.mesh.lengths;
-  const Embedding embedding = re_embed(surface, former, metric, old);
+  const Embedding embedding = re_embed(surface, former, metric, old, {.max_error = 0});
   std::size_t changed = 0;
   for (std::size_t h = 0; h < 3 * surface.face_count(); ++h) changed += embedding.mesh.lengths[h] != before[h];
   EXPECT_GT(changed, 0U);
   EXPECT_LT(changed, 100U);
   EXPECT_GE(embedding.faces_embedded, 2U);  // those at the vertex
   EXPECT_LT(embedding.faces_embedded, 100U);
-  EXPECT_EQ(embed(surface, metric).faces_embedded, surface.face_count());
+  EXPECT_EQ(embed(surface, metric, {.max_error = 0}).faces_embedded, surface.face_count());
 }
 
 }  // namespace

@@ -131,14 +131,14 @@ TEST(EmbedSiblings, StayJoinedInEveryScheme) {
   const Curvature curvature = principal_curvatures(surface);
   for (const double a : {15.0, 100.0}) {
     const Metric metric = feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = a});
-    const Embedding embedding = embed(surface, metric);
+    const Embedding embedding = embed(surface, metric, {.max_error = 0});
     EXPECT_GT(embedding.faces_added, on_torus);
     EXPECT_EQ(embedding.invalid_left, 0U);
     expect_sound(surface, embedding);
     expect_joined(embedding.mesh);
   }
   const Surface pages = book(4, 5).surface();
-  const Embedding repaired = embed(pages, random_metric_on(pages, 100, 1), {.max_faces_added = 200});
+  const Embedding repaired = embed(pages, random_metric_on(pages, 100, 1), {.max_faces_added = 200, .max_error = 0});
   EXPECT_GT(repaired.clamped_edges, 0U);
   expect_joined(repaired.mesh);
 }
@@ -147,7 +147,7 @@ TEST(EmbedSiblings, AreThoseWithoutTheHoles) {
   const Surface surface = book(4, 5).surface();
   const Metric metric = random_metric_on(surface, 20, 2);
   for (const std::size_t cap : {0U, 3U, 20U, 50U}) {
-    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap});
+    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap, .max_error = 0});
     EXPECT_LE(embedding.faces_added, cap);
     EXPECT_GT(embedding.invalid_left, 0U);
     expect_joined(embedding.mesh);
@@ -167,11 +167,11 @@ TEST(EmbedSiblings, OfSomeFacesAreAmongThem) {
   const Metric metric = random_metric_on(surface, 10, 2);
   std::vector<std::int32_t> faces(64);
   for (std::size_t i = 0; i < 64; ++i) faces[i] = static_cast<std::int32_t>(i);
-  const Embedding two_pages = embed(surface, metric, {.faces = faces});
+  const Embedding two_pages = embed(surface, metric, {.max_error = 0, .faces = faces});
   EXPECT_TRUE(two_pages.mesh.siblings.empty());
   expect_joined(two_pages.mesh);
   for (std::int32_t f = 64; f < 80; ++f) faces.push_back(f);
-  const Embedding embedding = embed(surface, metric, {.faces = faces});
+  const Embedding embedding = embed(surface, metric, {.max_error = 0, .faces = faces});
   EXPECT_FALSE(embedding.mesh.siblings.empty());
   expect_joined(embedding.mesh);
 }
@@ -182,7 +182,7 @@ TEST(EmbedSiblings, AreOfOneEdgeWhereDegenerateFacesAreRemoved) {
                         {{0, 1, 2}, {0, 2, 3}, {0, 2, 4}, {0, 5, 2}, {0, 6, 1}, {1, 6, 4}, {1, 4, 2}});
   ASSERT_FALSE(surface.report().zero_area_faces.empty());
   ASSERT_FALSE(surface.report().nonmanifold_edges.empty());
-  const Embedding embedding = embed(surface, identity_metric(surface));
+  const Embedding embedding = embed(surface, identity_metric(surface), {.max_error = 0});
   const IntrinsicMesh& mesh = embedding.mesh;
   for (std::int32_t h = 0; at(h) < mesh.siblings.size(); ++h) {
     mesh.for_each_beyond(h, [&](std::int32_t other) {

@@ -267,7 +267,7 @@ TEST_F(MeshFile, SaysWhichFilesItCannotReadOrWrite) {
     }
     return "";
   };
-  EXPECT_EQ(error_of([&] { read_mesh("a.fbx"); }), "a.fbx: the name must end in .obj, .ply, .stl or .off");
+  EXPECT_EQ(error_of([&] { read_mesh("a.fbx"); }), "a.fbx: the name must end in one of .obj, .ply, .stl, .off");
   EXPECT_EQ(error_of([&] { read_mesh("no/a.obj"); }), "no/a.obj: the file cannot be opened");
   EXPECT_EQ(error_of([&] { write_mesh("no/a.obj", example(false)); }), "no/a.obj: the file cannot be written");
   EXPECT_EQ(error_of([&] { write_lines("a.ply", {}); }), "a.ply: the name must end in .obj");
@@ -290,6 +290,8 @@ TEST_F(MeshFile, WritesLinesThatOthersRead) {
       {{0, 0, 0}, {0.1, 0, 0}}, {{1, 1, 1}}, {{2, 0, 0}, {3, 0, 0}, {4, 0, 0}}};
   write_lines(at("a.obj"), lines);
   EXPECT_EQ(content("a.obj"), "v 0 0 0\nv 0.1 0 0\nl 1 2\nv 1 1 1\nv 2 0 0\nv 3 0 0\nv 4 0 0\nl 4 5 6\n");
+  write_lines(at("a.obj"), {lines[0]});
+  EXPECT_EQ(content("a.obj"), "v 0 0 0\nv 0.1 0 0\nl 1 2\n");
 }
 
 /// Decimal commas, and dots between thousands.

@@ -90,7 +90,7 @@ TEST_P(CorridorPathsOn, EmbeddedLengths) {
   const Curvature curvature = principal_curvatures(surface);
   for (const Follow follow : {Follow::kMin, Follow::kMax}) {
     const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = 30.0});
-    const Embedding embedding = embed(surface, metric);
+    const Embedding embedding = embed(surface, metric, {.max_error = 0});
     const auto third = static_cast<std::uint32_t>(embedding.mesh.vertex_count / 3);
     const Excess excess =
         expect_paths(embedding.mesh, mesh.triangles[3][0], 1.05, {.corridor_vertices = std::min(400U, third)});

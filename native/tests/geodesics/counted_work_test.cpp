@@ -49,7 +49,8 @@ TEST(CountedWork, OnEmbeddedMeshesIsWhatItWas) {
   const Surface surface = shapes::bumpy(shapes::torus(120, 60), 0.02).surface();
   const Curvature curvature = principal_curvatures(surface);
   const auto work = [&](Follow follow) {
-    const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = 20}));
+    const Embedding embedding =
+        embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = 20}), {.max_error = 0});
     Work counted = seeding(embedding.mesh);
     counted.added = embedding.faces_added;
     return counted;

@@ -98,7 +98,7 @@ TEST(DirectMethods, ShortTermVectorsAreBetweenEdgesAndTheStraightLine) {
 TEST(DirectMethods, MarchingMethodsAreNeverTooShortOnThePlane) {
   const Errors upwind = errors(64, ordered_upwind), edges = errors(64, edge_dijkstra);
   const Errors marching = errors(64, [](const MetricSurface& s, std::int32_t seed) {
-    return FastMarching(embed(plane(64), s.metric).mesh).solve(seed);
+    return FastMarching(embed(plane(64), s.metric, {.max_error = 0}).mesh).solve(seed);
   });
   EXPECT_GE(upwind.lowest, -kRounding);
   EXPECT_GE(marching.lowest, -kRounding);
@@ -200,7 +200,8 @@ TEST(DirectMethods, WhereTrianglesAreObtuseHeatNeedsALongerTimeStep) {
   const Surface surface = plane(64);
   const Metric metric = embeddings::plane_metric(surface, 20.0, 1.0 / 20.0, std::numbers::pi / 4);
   const MetricSurface input = metric_surface(surface, metric);
-  const std::vector<double> exact = ExactGeodesics(embed(surface, metric).mesh).solve(middle(64)).distances();
+  const std::vector<double> exact =
+      ExactGeodesics(embed(surface, metric, {.max_error = 0}).mesh).solve(middle(64)).distances();
   const auto mean = [&](double steps) {
     const std::vector<double> found = HeatMethod(input, steps).solve(middle(64));
     double sum = 0.0;
@@ -220,7 +221,7 @@ class DirectMethodsOnTheTorus : public ::testing::Test {
 
   std::vector<double> exact(int levels) const {
     const auto [surface, fine] = refined(torus, metric, levels);
-    return ExactGeodesics(embed(surface, fine).mesh).solve(0).distances();
+    return ExactGeodesics(embed(surface, fine, {.max_error = 0}).mesh).solve(0).distances();
   }
   MetricSurface cut(int levels) const {
     const auto [surface, fine] = refined(torus, metric, levels);
@@ -267,7 +268,7 @@ TEST_F(DirectMethodsOnTheTorus, OursIsOfSecondOrder) {
 TEST_F(DirectMethodsOnTheTorus, MarchingMethodsConverge) {
   const auto marching = [&](int levels) {
     const auto [surface, fine] = refined(torus, metric, levels);
-    return error(FastMarching(embed(surface, fine).mesh).solve(0));
+    return error(FastMarching(embed(surface, fine, {.max_error = 0}).mesh).solve(0));
   };
   const auto upwind = [&](int levels) { return error(ordered_upwind(cut(levels), 0)); };
   EXPECT_LT(upwind(1), kHalfOrder * upwind(0));
@@ -305,9 +306,11 @@ TEST_F(DirectMethodsOnTheTorus, DistancesAreTwiceAsLongInAMetricOfTwiceTheLength
       vectors(5),
       ordered_upwind,
       [](const MetricSurface& s, std::int32_t seed) { return HeatMethod(s).solve(seed); },
-      [&](const MetricSurface& s, std::int32_t seed) { return FastMarching(embed(torus, s.metric).mesh).solve(seed); },
       [&](const MetricSurface& s, std::int32_t seed) {
-        return SaddleVertexGraph(embed(torus, s.metric).mesh, 20).solve(seed);
+        return FastMarching(embed(torus, s.metric, {.max_error = 0}).mesh).solve(seed);
+      },
+      [&](const MetricSurface& s, std::int32_t seed) {
+        return SaddleVertexGraph(embed(torus, s.metric, {.max_error = 0}).mesh, 20).solve(seed);
       }};
   for (const Distances& method : methods) {
     const std::vector<double> once = method(metric_surface(torus, metric), 0);
@@ -339,18 +342,20 @@ void expect_exact_with_all_vertices(const IntrinsicMesh& mesh) {
 }
 
 TEST_F(DirectMethodsOnTheTorus, TheSaddleVertexGraphIsExactWithAllVertices) {
-  expect_exact_with_all_vertices(embed(torus, metric).mesh);
+  expect_exact_with_all_vertices(embed(torus, metric, {.max_error = 0}).mesh);
 }
 
 TEST(DirectMethods, TheSaddleVertexGraphIsExactAroundABoundary) {
   const Surface surface = shapes::cylinder(24, 12).surface();
-  expect_exact_with_all_vertices(embed(surface, euclidean_metric(surface, principal_curvatures(surface))).mesh);
+  expect_exact_with_all_vertices(
+      embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0}).mesh);
 }
 
 TEST(DirectMethods, TheReferenceIsExact) {
   const Errors reference = errors(8, [](const MetricSurface& s, std::int32_t seed) {
     const auto [surface, metric] = refined(plane(8), s.metric, 2);
-    std::vector<double> distances = ExactGeodesics(embed(surface, metric).mesh).solve(seed).distances();
+    std::vector<double> distances =
+        ExactGeodesics(embed(surface, metric, {.max_error = 0}).mesh).solve(seed).distances();
     distances.resize(s.points.size());
     return distances;
   });

@@ -37,7 +37,7 @@ std::vector<double> distances(const Surface& surface, const Embedding& embedding
 }
 
 std::vector<double> distances(const Surface& surface, const Metric& metric, std::int32_t seed) {
-  return distances(surface, embed(surface, metric), seed);
+  return distances(surface, embed(surface, metric, {.max_error = 0}), seed);
 }
 
 // Largest relative difference, the seed left out, whose expected distance may be a rounding.
@@ -75,7 +75,7 @@ TEST(EmbeddedDistance, AtGammaZeroIsEuclidean) {
                            shapes::bumpy(shapes::icosphere(3), 0.05)}) {
     const Surface surface = mesh.surface();
     const Metric metric = feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.parameter = 0});
-    const Embedding embedding = embed(surface, metric);
+    const Embedding embedding = embed(surface, metric, {.max_error = 0});
     EXPECT_EQ(embedding.faces_added, 0U);
     const std::vector<double> euclidean = ExactGeodesics(shapes::intrinsic(mesh)).solve(5).distances();
     EXPECT_LT(
@@ -312,7 +312,7 @@ TEST(EmbeddedDistance, IsExactOnTheEmbeddedLengths) {
                                feature_metric(surface, curvature, Follow::kMax, strength),
                                campen_metric(surface, curvature, Follow::kMin, {.max_anisotropy = 8}),
                                pottmann_kovacs_metric(surface, curvature, Follow::kMin, strength)}) {
-    const Embedding embedding = embed(surface, metric, {.sigma = 1e-3});
+    const Embedding embedding = embed(surface, metric, {.max_error = 0});
     added += embedding.faces_added;
     const ExactGeodesics solver(embedding.mesh);
     const DistanceField field = solver.solve(3);
@@ -331,7 +331,7 @@ TEST(EmbeddedDistance, DoesNotDependOnTheScaleOfTheInput) {
   const auto along = [](const Mesh& scaled) {
     const Surface surface = scaled.surface();
     const Metric metric = feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 10});
-    const Embedding embedding = embed(surface, metric);
+    const Embedding embedding = embed(surface, metric, {.max_error = 0});
     EXPECT_GT(embedding.faces_added, 100U);
     return distances(surface, embedding, 7);
   };
@@ -379,7 +379,7 @@ TEST(EmbeddedDistance, GoesStraightOverFacesWithoutAnArea) {
   const Surface surface = mesh.surface();
   ASSERT_EQ(surface.report().zero_area_faces.size(), 3U);
   ASSERT_EQ(surface.report().boundary_edges, 32U);
-  const Embedding embedding = embed(surface, plane_metric(surface, 1, 1, 0));
+  const Embedding embedding = embed(surface, plane_metric(surface, 1, 1, 0), {.max_error = 0});
   EXPECT_EQ(embedding.invalid_before, 3U);
   EXPECT_EQ(embedding.invalid_left, 0U);
   for (const std::int32_t seed : {0, 10, 20, twin, on_edge, 44}) {
@@ -394,7 +394,7 @@ TEST(EmbeddedDistance, IsFiniteOverHoles) {
   const Surface surface = shapes::grid(12).surface();
   const Metric metric = random_metric(surface, 10, 3);
   for (const std::size_t cap : {0, 40}) {
-    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap});
+    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap, .max_error = 0});
     ASSERT_GT(embedding.invalid_left, 0U);
     for (const double d : distances(surface, embedding, 0)) EXPECT_TRUE(std::isfinite(d));
   }
@@ -441,7 +441,8 @@ TEST(EmbeddedDistance, OnAPlaneOfSliversIsTheStraightLine) {
   for (const double aspect : {1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8}) {
     for (const Mesh& mesh : {thin_plane(aspect), capped_plane(aspect), needle_fan(aspect)}) {
       const Surface surface = mesh.surface();
-      const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+      const Embedding embedding =
+          embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
       EXPECT_EQ(embedding.clamped_edges, 0U);
       EXPECT_EQ(embedding.invalid_left, 0U);
       for (const std::int32_t seed : {0, 40}) {

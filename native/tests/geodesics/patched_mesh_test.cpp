@@ -95,7 +95,7 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
     const Metric base = feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 8});
     std::vector<Scribble> scribbles;
     Metric former = base;
-    Embedding embedding = embed(surface, base);
+    Embedding embedding = embed(surface, base, {.max_error = 0});
     ExactGeodesics geodesics(embedding.mesh);
     GeodesicMesh own(embedding.mesh, {});
     int patches = 0, more = 0, fewer = 0;
@@ -106,7 +106,7 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
         scribbles.push_back(random_scribble(surface, random, 12, 4));
       }
       Metric metric = apply_scribbles(surface, base, scribbles);
-      Embedding next = re_embed(surface, former, metric, embedding);
+      Embedding next = re_embed(surface, former, metric, embedding, {.max_error = 0});
       more += next.mesh.face_count() > embedding.mesh.face_count();
       fewer += next.mesh.face_count() < embedding.mesh.face_count();
       std::optional<GeodesicMesh> patched = own.patched(embedding.mesh, next.mesh, {});
@@ -128,7 +128,7 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
     EXPECT_GT(more, 3);
     EXPECT_GT(fewer, 3);
     // All strokes taken back.
-    const Embedding back = re_embed(surface, former, base, embedding);
+    const Embedding back = re_embed(surface, former, base, embedding, {.max_error = 0});
     if (const auto patched = own.patched(embedding.mesh, back.mesh, {})) {
       expect_same(*patched, GeodesicMesh(back.mesh, {}));
     }

@@ -34,7 +34,7 @@ TEST(Cotree, TakesEdgesInTheirOrderAndLeavesThoseThatCloseLoops) {
   Cotree cotree(
       6, sides.size(), [&](std::size_t i) { return sides[i]; }, Poll(task));
   EXPECT_EQ(cotree.crossed, (Nodes{0, 1, 3}));
-  EXPECT_EQ(cotree.closing, (Nodes{2, 4, 5}));
+  EXPECT_EQ(cotree.generators, (Nodes{2, 4, 5}));
   EXPECT_EQ(cotree.parts.numbering().of, (Nodes{0, 0, 0, 0, 1, 2}));
 }
 

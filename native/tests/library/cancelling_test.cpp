@@ -187,7 +187,8 @@ TEST_F(Cancelling, TheGraphToSnapTo) {
 }
 
 TEST_F(Cancelling, Snapping) {
-  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const Embedding embedding =
+      embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
   const ExactGeodesics geodesics(embedding.mesh);
   const auto target = static_cast<std::int32_t>(vertices / 2);
   const Wire wire = trace_wire(surface, embedding, geodesics.solve(0), target).value();
@@ -201,17 +202,20 @@ TEST_F(Cancelling, Snapping) {
 TEST_F(Cancelling, Embedding) {
   const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
   // Looking for degenerate ones, lengths, and looking for invalid ones.
-  expect_stops(faces + vertices + 3 * faces + faces, [&](const Task& task) { embed(surface, metric, {}, task); });
+  expect_stops(faces + vertices + 3 * faces + faces,
+               [&](const Task& task) { embed(surface, metric, {.max_error = 0}, task); });
 }
 
 TEST_F(Cancelling, TheMeshOfTheGeodesics) {
-  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const Embedding embedding =
+      embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
   expect_stops(faces + 3 * faces + faces + 2 * faces + vertices + faces + 2 * faces + vertices + vertices,
                [&](const Task& task) { ExactGeodesics(embedding.mesh, task); });
 }
 
 TEST_F(Cancelling, TheHeatMethod) {
-  const IntrinsicMesh mesh = embed(surface, euclidean_metric(surface, principal_curvatures(surface))).mesh;
+  const IntrinsicMesh mesh =
+      embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0}).mesh;
   // The mesh is checked, its edges are flipped, and its equations are set up.
   expect_stops(5 * faces + 2 * faces + 3 * faces / 2 + 2 * faces, [&](const Task& task) { HeatGeodesics(mesh, task); });
   const HeatGeodesics heat(mesh);
@@ -225,7 +229,8 @@ TEST_F(Cancelling, TheHeatMethod) {
 }
 
 TEST_F(Cancelling, APathAtOnce) {
-  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const Embedding embedding =
+      embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
   const ExactGeodesics geodesics(embedding.mesh);
   // In a corridor as wide as the mesh, with all windows, the front looks at the task as often as in a field.
   const CorridorPathOptions all{.corridor_vertices = vertices, .windows = 0};
@@ -235,7 +240,8 @@ TEST_F(Cancelling, APathAtOnce) {
 }
 
 TEST_F(Cancelling, TheLoopsOfClosedWires) {
-  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const Embedding embedding =
+      embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
   // The tree of the faces is taken apart, areas are added up, and the loops are rated.
   std::size_t looks = 0;

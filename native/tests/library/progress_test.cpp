@@ -43,12 +43,12 @@ std::vector<Work> all_work() {
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   const SurfaceContext context(surface);
   const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::concave()));
-  const EmbeddedSurface embedded(context, metric);
+  const EmbeddedSurface embedded(context, metric, {.max_error = 0});
   shapes::Mesh with_fin = mesh;  // one more triangle at an edge
   with_fin.points.push_back(1.3 * mesh.points[0]);
   with_fin.triangles.push_back({0, 1, static_cast<std::int32_t>(mesh.points.size())});
   const SurfaceContext complex(std::make_shared<const Surface>(with_fin.points, with_fin.triangles));
-  const EmbeddedSurface embedded_complex(complex, MetricSpec::euclidean());
+  const EmbeddedSurface embedded_complex(complex, MetricSpec::euclidean(), {.max_error = 0});
   return {
       {"Surface", [=](const Task& task) { Surface(mesh.points, mesh.triangles, std::nullopt, task); }},
       {"SurfaceContext",
@@ -60,12 +60,13 @@ std::vector<Work> all_work() {
          make_metric(SurfaceContext(mesh.points, mesh.triangles), MetricSpec::concave(), task);
        }},
       {"make_metric", [=](const Task& task) { make_metric(context, MetricSpec::concave(), task); }},
-      {"EmbeddedSurface", [=](const Task& task) { EmbeddedSurface(context, metric, {}, task); }},
+      {"EmbeddedSurface", [=](const Task& task) { EmbeddedSurface(context, metric, {.max_error = 0}, task); }},
       {"its field", [=](const Task& task) { embedded.field(0, task); }},
       {"its field by the heat method",
        [=](const Task& task) {
-         const EmbeddedSurface fresh(context, metric);
-         fresh.field(fresh.heat(part_of(task, 0.0, 0.5)), std::array{SurfacePoint(0)}, {}, part_of(task, 0.5, 1.0));
+         const EmbeddedSurface fresh(context, metric, {.max_error = 0});
+         fresh.field(fresh.heat_geodesics(part_of(task, 0.0, 0.5)), std::array{SurfacePoint(0)}, {},
+                     part_of(task, 0.5, 1.0));
        }},
       {"its closed wires", [=](const Task& task) { embedded.field(0).closed_wires(3, task); }},
       {"closed wires over an edge of three faces",

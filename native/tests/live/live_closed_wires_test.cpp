@@ -57,7 +57,7 @@ TEST(LiveWorker, AnswersNoOtherLoopThanTheOneAskedFor) {
     return std::make_shared<MetricSet>(LiveMetrics{.wires = {spec}}, std::vector<Scribble>());
   };
   const auto right_of_way = std::make_shared<RightOfWay>();
-  LiveSettings settings{.along = Along::kEdges, .turning = 3.0, .loop_turning = std::nullopt, .max_error = 0.0};
+  LiveSettings settings{.along = Along::kEdges, .turning = 3.0, .loop_turning = std::nullopt, .max_error = 0};
   LiveWorker edges(0, context, metrics(MetricSpec::euclidean()), settings, right_of_way);
   const Edge edge{0, 1}, other_edge{0, 24};
   edges.find_loop(edge);
@@ -82,8 +82,8 @@ struct ClosedInBoth {
   explicit ClosedInBoth(std::shared_ptr<const Surface> of)
       : surface(std::move(of)), curvature(principal_curvatures(*surface)) {
     const Curvature smoothed = smoothed_curvatures(*surface, curvature, 0.01);
-    embeddings[0] = embed(*surface, concave_metric(*surface, smoothed, 1.0));
-    embeddings[1] = embed(*surface, euclidean_metric(*surface, curvature));
+    embeddings[0] = embed(*surface, concave_metric(*surface, smoothed, 1.0), {.max_error = 0});
+    embeddings[1] = embed(*surface, euclidean_metric(*surface, curvature), {.max_error = 0});
     for (const Embedding& embedding : embeddings) solvers.emplace_back(embedding.mesh);
   }
   std::vector<std::vector<ClosedWire>> closed(std::int32_t through) const {

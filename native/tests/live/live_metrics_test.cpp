@@ -133,7 +133,7 @@ TEST(LiveWire, OfConcaveCreasesTheFirstWireLeadsAndTheSecondIsTheShortestPath) {
   const LiveWires shortest = fresh_wires(surface, in(MetricFamily::kEuclidean), {7}, {333});
   EXPECT_EQ(wires.wires[1].points, shortest.wires[0].points);
   const Metric metric = concave_metric(*surface, smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01));
-  const Embedding embedding = embed(*surface, metric);
+  const Embedding embedding = embed(*surface, metric, {.max_error = 0});
   EXPECT_NEAR(wires.wires[0].length, ExactGeodesics(embedding.mesh).solve(7).distances()[333], 1e-12);
   EXPECT_EQ(wires.active, 0);
   // Half as strong by either of the two; so strong that the second is shorter, the first leads all the same.
@@ -237,7 +237,7 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
       const auto graph = make_edge_graph(*surface, metric, nullptr, std::vector{scribble}, MetricKind::kMin);
       EXPECT_EQ(after.wires[min].vertices, edge_wires(graph, from).trace(to)->vertices);
     } else {
-      const Embedding embedding = embed(*surface, metric);
+      const Embedding embedding = embed(*surface, metric, {.max_error = 0});
       const DistanceField field = ExactGeodesics(embedding.mesh).solve(from.a);
       EXPECT_EQ(after.wires[min].points, trace_wire(*surface, embedding, field, to.a)->points);
       const bool bends = std::ranges::any_of(after.wires[min].points, [](const Vector& p) { return p.y() > 0.35; });
@@ -303,7 +303,7 @@ TEST(LiveWire, MetricsThatStayAreNotPreparedAgain) {
 TEST(LiveWire, WiresInMetricsThatAnotherOneHasAreTheSame) {
   const SurfaceContext context(shared(shapes::bumpy(shapes::torus(32, 20), 0.02)));
   LiveWire live(context, kPlain);
-  LiveWire cuts(context, {.metrics = {.wires = {MetricSpec::concave(), MetricSpec::euclidean()}}, .max_error = 0.0});
+  LiveWire cuts(context, {.metrics = {.wires = {MetricSpec::concave(), MetricSpec::euclidean()}}, .max_error = 0});
   for (LiveWire* each : {&live, &cuts}) {
     each->seed({7});
     ASSERT_TRUE(each->wait());

@@ -23,7 +23,7 @@ using namespace detail;
 
 namespace {
 
-const LiveWireOptions kUnrefined{.max_error = 0.0};
+const LiveWireOptions kUnrefined{.max_error = 0};
 
 std::shared_ptr<const Surface> bumpy_torus() {
   const shapes::Mesh mesh = shapes::bumpy(shapes::torus(32, 20), 0.02);
@@ -56,7 +56,7 @@ TEST(LiveRefinement, WiresAreFinalOnceTheyAreRefinedAndNotBefore) {
   ASSERT_TRUE(plain.wait());
   const Metric metric =
       feature_metric(*surface, principal_curvatures(*surface), Follow::kMin, Strength{.parameter = 0.1});
-  const Embedding embedding = embed(*surface, metric);
+  const Embedding embedding = embed(*surface, metric, {.max_error = 0});
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(7);
   bool differs = false;
   for (const std::int32_t target : {100, 333, 639}) {
@@ -143,7 +143,7 @@ TEST(LiveRefinement, ATargetWithoutAWireIsFinal) {
 
 TEST(LiveRefinement, AlongEdgesNothingChanges) {
   const auto surface = bumpy_torus();
-  LiveWire live(surface, {.along = Along::kEdges}), plain(surface, {.along = Along::kEdges, .max_error = 0.0});
+  LiveWire live(surface, {.along = Along::kEdges}), plain(surface, {.along = Along::kEdges, .max_error = 0});
   for (LiveWire* each : {&live, &plain}) {
     each->seed({7});
     ASSERT_TRUE(each->wait());

@@ -39,7 +39,7 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLe
   EXPECT_EQ(live.progress(), 1);
   const SnapGraph graph(*surface);
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    const Embedding embedding = embed(*surface, default_metric_of(*surface, kKinds[i]));
+    const Embedding embedding = embed(*surface, default_metric_of(*surface, kKinds[i]), {.max_error = 0});
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(7);
     for (const std::int32_t target : {7, 8, 100, 639}) {
       const LiveWires wires = live.wires({target});
@@ -133,7 +133,7 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
   ASSERT_TRUE(live.wait());
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     const auto shared_embedding =
-        std::make_shared<const Embedding>(embed(*surface, default_metric_of(*surface, kKinds[i])));
+        std::make_shared<const Embedding>(embed(*surface, default_metric_of(*surface, kKinds[i]), {.max_error = 0}));
     const Embedding& embedding = *shared_embedding;
     const EmbeddedPoints points(surface, shared_embedding);
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(std::array{*points.find(seed)});
@@ -421,8 +421,8 @@ TEST(LiveWire, TellsWhatBecameOfItsEmbeddings) {
   std::size_t clamped = 0;
   for (const Follow follow : {Follow::kMin, Follow::kMax}) {
     // The most triangles that a live wire adds to so small a mesh.
-    const Embedding embedding =
-        embed(*surface, feature_metric(*surface, curvature, follow, strength), {.max_faces_added = 200'000});
+    const Embedding embedding = embed(*surface, feature_metric(*surface, curvature, follow, strength),
+                                      {.max_faces_added = 200'000, .max_error = 0});
     clamped += embedding.clamped_edges;
     const auto told = live.embeddings()[follow == Follow::kMin ? 1 : 2];
     ASSERT_TRUE(told);
@@ -523,7 +523,8 @@ TEST(LiveWire, TracesWiresOfALargeSurfaceInTheBackground) {
   const Pick target{25'199};  // the newest one, whose work has taken the place of the others'
   const LiveWires wires = live.wires(target);
   ASSERT_TRUE(wires.final());
-  const Embedding embedding = embed(*surface, euclidean_metric(*surface, principal_curvatures(*surface)));
+  const Embedding embedding =
+      embed(*surface, euclidean_metric(*surface, principal_curvatures(*surface)), {.max_error = 0});
   const Wire expected = trace_wire(*surface, embedding, ExactGeodesics(embedding.mesh).solve(7), target.a).value();
   EXPECT_EQ(wires.wires[0].points, expected.points);
   EXPECT_EQ(wires.wires[0].vertices, snap_to_edges(*surface, SnapGraph(*surface), expected));

@@ -246,17 +246,17 @@ TEST(Metrics, AreRefusedByNameIfATensorIsNotSymmetricAndPositive) {
   const Metric good = euclidean_metric(surface, principal_curvatures(surface));
   const std::vector<std::int32_t> faces{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
   const auto expect_refused = [&](const Metric& bad, const std::string& why) {
-    const std::vector<std::string> messages{message([&] { embed(surface, bad); }),
-                                            message([&] { embed(surface, bad, {.faces = faces}); }),
-                                            message([&] { re_embed(surface, good, bad, embed(surface, good)); }),
-                                            message([&] { invalid_faces(surface, bad); }),
-                                            message([&] { apply_scribbles(surface, bad, {}); }),
-                                            message([&] { make_edge_graph(surface, bad); }),
-                                            message([&] {
-                                              EmbeddedSurface(SurfaceContext(std::make_shared<const Surface>(surface)),
-                                                              std::make_shared<const Metric>(bad),
-                                                              embed(surface, good));
-                                            })};
+    const std::vector<std::string> messages{
+        message([&] { embed(surface, bad, {.max_error = 0}); }),
+        message([&] { embed(surface, bad, {.max_error = 0, .faces = faces}); }),
+        message([&] { re_embed(surface, good, bad, embed(surface, good, {.max_error = 0}), {.max_error = 0}); }),
+        message([&] { invalid_faces(surface, bad); }),
+        message([&] { apply_scribbles(surface, bad, {}); }),
+        message([&] { make_edge_graph(surface, bad); }),
+        message([&] {
+          EmbeddedSurface(SurfaceContext(std::make_shared<const Surface>(surface)), std::make_shared<const Metric>(bad),
+                          embed(surface, good, {.max_error = 0}));
+        })};
     for (const std::string& each : messages) EXPECT_EQ(each, "the metric at vertex 6 " + why);
   };
   const auto with = [&](const Eigen::Matrix3d& tensor, const Vector& normal = Vector::UnitZ()) {

@@ -24,7 +24,7 @@ constexpr int kAround = 24;
 struct Cut {
   Cut(const shapes::Mesh& mesh, std::int32_t from)
       : surface(mesh.surface()),
-        embedding(embed(surface, euclidean_metric(surface, principal_curvatures(surface)))),
+        embedding(embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0})),
         geodesics(embedding.mesh),
         seed(from),
         field(geodesics.solve(from)),

@@ -25,7 +25,8 @@ constexpr double kTau = 2 * std::numbers::pi;
 /// Distances and loops over a mesh in the Euclidean metric, unless another one is given.
 struct Solved {
   explicit Solved(const shapes::Mesh& mesh)
-      : surface(mesh.surface()), embedding(embed(surface, euclidean_metric(surface, principal_curvatures(surface)))) {}
+      : surface(mesh.surface()),
+        embedding(embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0})) {}
 
   DistanceField field(const SurfacePoint& seed, const SolveOptions& options = {}) const {
     return ExactGeodesics(embedding.mesh).solve(std::vector{seed}, options);

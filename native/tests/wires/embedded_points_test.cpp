@@ -36,7 +36,7 @@ struct Refined {
   explicit Refined(shapes::Mesh shape, double anisotropy = 30)
       : mesh(std::move(shape)),
         surface(mesh.surface()),
-        embedding(embed(surface, embeddings::random_metric(surface, anisotropy, 3))) {}
+        embedding(embed(surface, embeddings::random_metric(surface, anisotropy, 3), {.max_error = 0})) {}
 
   shapes::Mesh mesh;
   Surface surface;
@@ -120,7 +120,7 @@ TEST(EmbeddedPoints, HolesHaveNone) {
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-2, 0, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 3, 4}};  // the second one without an area
   const Surface surface = mesh.surface();
-  const Embedding embedding = embed(surface, embeddings::identity_metric(surface));
+  const Embedding embedding = embed(surface, embeddings::identity_metric(surface), {.max_error = 0});
   ASSERT_EQ(embedding.invalid_left, 1U);
   const EmbeddedPoints points(unowned(surface), unowned(embedding));
   EXPECT_TRUE(points.find({0, {0.2, 0.3, 0.5}}));

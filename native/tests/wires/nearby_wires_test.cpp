@@ -37,7 +37,7 @@ std::int32_t near(std::int32_t seed) {
 /// How much longer a wire is than the distance on an embedding of the whole surface, at every seed.
 std::vector<double> excesses(const std::shared_ptr<const Surface>& surface, const Metric& metric) {
   const auto shared = std::make_shared<const Metric>(metric);
-  const Embedding embedding = embed(*surface, metric);
+  const Embedding embedding = embed(*surface, metric, {.max_error = 0});
   const ExactGeodesics geodesics(embedding.mesh);
   std::vector<double> out;
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(surface->vertex_count()); ++seed) {
@@ -83,7 +83,7 @@ TEST(NearbyWires, ServeOtherTargetsAndPointsInFaces) {
   const auto metric = std::make_shared<const Metric>(euclidean_metric(*surface, principal_curvatures(*surface)));
   const SurfacePoint seed = {100, {0.2, 0.3, 0.5}};
   NearbyWires wires(surface, metric, seed, surface->face_count() / 3);
-  const auto embedding = std::make_shared<const Embedding>(embed(*surface, *metric));
+  const auto embedding = std::make_shared<const Embedding>(embed(*surface, *metric, {.max_error = 0}));
   const DistanceField field = ExactGeodesics(embedding->mesh).solve(std::array{seed});
   for (const std::int32_t face : {700, 104, 200, 98, 101, 100}) {
     const SurfacePoint target = {face, {0.5, 0.25, 0.25}};

@@ -67,7 +67,7 @@ std::shared_ptr<const Surface> shared(const Surface& surface) { return {std::sha
 /// A wire as the embedding of the whole surface has it, and what it takes to refine it.
 struct First {
   First(const Surface& on, const Metric& by, const SurfacePoint& begin, const SurfacePoint& end)
-      : surface(shared(on)), metric(by), from(begin), to(end), embedding(embed(on, by)) {
+      : surface(shared(on)), metric(by), from(begin), to(end), embedding(embed(on, by, {.max_error = 0})) {
     const EmbeddedPoints points(surface, std::make_shared<const Embedding>(embedding));
     wire = trace_wire(on, embedding, ExactGeodesics(embedding.mesh).solve(std::array{*points.find(from)}),
                       *points.find(to))

@@ -23,12 +23,14 @@ namespace {
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Embedding embed_features(const Surface& surface, Follow follow, double max_anisotropy) {
-  return embed(surface, feature_metric(surface, principal_curvatures(surface), follow,
-                                       {.parameter = {}, .max_anisotropy = max_anisotropy}));
+  return embed(surface,
+               feature_metric(surface, principal_curvatures(surface), follow,
+                              {.parameter = {}, .max_anisotropy = max_anisotropy}),
+               {.max_error = 0});
 }
 
 Embedding embed_euclidean(const Surface& surface) {
-  return embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  return embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
 }
 
 double distance_to_segment(const Vector& p, const Vector& a, const Vector& b) {

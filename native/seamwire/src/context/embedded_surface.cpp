@@ -95,7 +95,7 @@ const ExactGeodesics& EmbeddedSurface::geodesics(const Task& task) const {
   return *data_->geodesics.get(task, [&](const Task& own) { return ExactGeodesics(embedding().mesh, own); });
 }
 
-const HeatGeodesics& EmbeddedSurface::heat(const Task& task) const {
+const HeatGeodesics& EmbeddedSurface::heat_geodesics(const Task& task) const {
   return *data_->heat.get(task, [&](const Task& own) { return HeatGeodesics(embedding().mesh, own); });
 }
 

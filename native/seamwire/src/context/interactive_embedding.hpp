@@ -12,7 +12,8 @@ namespace seamwire::detail {
 /// Options of an embedding that an artist waits for: one that runs away is better cut short.
 inline EmbedOptions interactive_options(const Surface& surface) {
   constexpr std::size_t kLeastFacesAdded = 200'000, kFacesAddedPerFace = 12, kMostFacesAdded = 1'000'000;
-  return {.max_faces_added = std::clamp(kFacesAddedPerFace * surface.face_count(), kLeastFacesAdded, kMostFacesAdded)};
+  return {.max_faces_added = std::clamp(kFacesAddedPerFace * surface.face_count(), kLeastFacesAdded, kMostFacesAdded),
+          .max_error = 0};
 }
 
 }  // namespace seamwire::detail

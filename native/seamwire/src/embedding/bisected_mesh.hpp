@@ -90,7 +90,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   /// The length of an edge as set last.
   double length(std::int32_t h) const { return lengths[h]; }
   void set_length(std::int32_t h, double length);
-  double perimeter(std::int32_t f, Perimeter kind) const;
+  double perimeter(std::int32_t f) const;
   /// The mean length of an edge in the metric before the first bisection, or the one that the options give.
   double mean_edge_length() const { return mean_edge_length_; }
   /// The form of the ambient norm (metric.hpp) at a vertex.
@@ -209,10 +209,9 @@ inline void BisectedMesh::set_length(std::int32_t h, double length) {
   for_each_beyond(h, [&](std::int32_t other) { lengths[other] = length; });
 }
 
-inline double BisectedMesh::perimeter(std::int32_t f, Perimeter kind) const {
+inline double BisectedMesh::perimeter(std::int32_t f) const {
   const double* l = &lengths[3 * index(f)];
-  if (kind == Perimeter::kMetric) return l[0] + l[1] + l[2];
-  return vector(3 * f).norm() + vector(3 * f + 1).norm() + vector(3 * f + 2).norm();
+  return l[0] + l[1] + l[2];
 }
 
 }  // namespace seamwire::detail

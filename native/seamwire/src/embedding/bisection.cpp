@@ -91,13 +91,12 @@ void Bisection::consider(std::int32_t f) {
     has_decayed_ = has_decayed_ || !mesh_.is_of_degenerate_face(f);
     return;
   }
-  const double perimeter = mesh_.perimeter(f, options_.perimeter);
-  if (perimeter < options_.sigma || scheme_ == Scheme::kNone) return;
+  if (scheme_ == Scheme::kNone) return;
   if (scheme_ == Scheme::kShallowPropagation && mesh_.depths[f] >= kShallowDepth) return;
   if (scheme_ == Scheme::kPropagation && first_newest_ == 0 && mesh_.depths[f] >= kNewestDepth) {
     deferred_.push_back(f);
   } else {
-    queue(f, perimeter);
+    queue(f, mesh_.perimeter(f));
   }
 }
 
@@ -190,7 +189,7 @@ bool Bisection::run(const Task& task, std::size_t most, double& progress) {
 bool Bisection::is_stale(const Candidate& candidate) const {
   const std::int32_t f = candidate.face;
   if (scheme_ == Scheme::kResolving) return static_cast<std::uint32_t>(candidate.place) != mesh_.branches[f];
-  const auto perimeter = static_cast<float>(mesh_.perimeter(f, options_.perimeter));
+  const auto perimeter = static_cast<float>(mesh_.perimeter(f));
   return perimeter != candidate.priority || mesh_.is_valid(f);
 }
 

@@ -62,41 +62,31 @@ double largest_ratio(const PlaneForm& g, const PlaneForm& h) {
   return std::max(high, high / product);
 }
 
-// error_score(), with the form of the triangle's lengths.
-double score(const BisectedMesh& mesh, std::int32_t f, const PlaneForm& g, const Plane& plane) {
+}  // namespace
+
+double error_score(const BisectedMesh& mesh, std::int32_t f) {
+  const PlaneForm g = form_of_lengths(mesh, f);
   const Triangle& corners = mesh.triangles[f];
   const SpaceForm &a = mesh.form(corners[0]), &b = mesh.form(corners[1]), &c = mesh.form(corners[2]);
   SpaceForm mean;
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (a[i] + b[i] + c[i]) / 3;
-  const double deviation = std::log(largest_ratio(g, restricted(mean, plane))) / 2;
+  const double deviation = std::log(largest_ratio(g, restricted(mean, Plane(mesh, f)))) / 2;
   const double area = std::sqrt(g.determinant) / 2;
   return deviation * std::sqrt(area) / mesh.mean_edge_length();
 }
 
-}  // namespace
-
-double error_score(const BisectedMesh& mesh, std::int32_t f) {
-  return score(mesh, f, form_of_lengths(mesh, f), Plane(mesh, f));
-}
-
 Resolution measure_resolution(const BisectedMesh& mesh, double tolerance, const Task& task, double progress) {
-  double highest = 0, largest = 1;
+  double highest = 0;
   Resolution resolution;
   const Poll poll(task, progress, progress, mesh.face_count());
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
     poll.at(index(f));
     if (!mesh.is_valid(f)) continue;
-    const PlaneForm g = form_of_lengths(mesh, f);
-    const Plane plane(mesh, f);
-    const double of_face = score(mesh, f, g, plane);
-    highest = std::max(highest, of_face);
-    if (of_face > tolerance) ++resolution.unmet;
-    for (const std::int32_t corner : mesh.triangles[f]) {
-      largest = std::max(largest, largest_ratio(g, restricted(mesh.form(corner), plane)));
-    }
+    const double score = error_score(mesh, f);
+    highest = std::max(highest, score);
+    if (score > tolerance) ++resolution.unmet;
   }
   resolution.estimated_error = highest / kScorePerError;
-  resolution.largest_deviation = std::log(largest) / 2;
   return resolution;
 }
 

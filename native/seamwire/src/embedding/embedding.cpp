@@ -113,7 +113,6 @@ void check(const EmbeddingInput& input) {
   } else {
     check_tensors(input.metric);
   }
-  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
   if (!(options.max_error >= 0 && options.max_error <= 1)) {
     throw InvalidInput("max_error is " + text(options.max_error) + ", not between 0 and 1");
   }

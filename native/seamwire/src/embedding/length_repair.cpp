@@ -20,15 +20,14 @@ constexpr double kMargin = 1.0 / 16;
 // precision.
 constexpr double kNeedle = 1e-8;
 
-// Whether a triangle is invalid, and is neither left out for sigma nor a part of a degenerate face.
-bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
-  if (mesh.is_valid(f) || mesh.perimeter(f, options.perimeter) < options.sigma) return false;
-  return !mesh.is_of_degenerate_face(f);
+// Whether a triangle is invalid without being a part of a degenerate face.
+bool needs_length_repair(const BisectedMesh& mesh, std::int32_t f) {
+  return !mesh.is_valid(f) && !mesh.is_of_degenerate_face(f);
 }
 
-bool is_repairable(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
+bool is_repairable(const BisectedMesh& mesh, std::int32_t f) {
   const double *l = &mesh.lengths[3 * index(f)], least = std::min({l[0], l[1], l[2]});
-  return needs_length_repair(mesh, options, f) && least > kNeedle * std::max({l[0], l[1], l[2]});
+  return needs_length_repair(mesh, f) && least > kNeedle * std::max({l[0], l[1], l[2]});
 }
 
 // Edges are in one strict order, that of their lengths and then of their numbers.
@@ -80,13 +79,13 @@ LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, con
   const Poll poll(task, progress, progress, mesh.face_count());
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
     poll.at(index(f));
-    if (is_repairable(mesh, options, f)) todo.push_back(f);
+    if (is_repairable(mesh, f)) todo.push_back(f);
   }
   std::vector<std::int32_t> chain;  // triangles to bisect, the last one first
   std::vector<Side> sides;
   for (std::size_t i = 0; i < todo.size(); ++i) {
     if ((i + 1) % kBisectionsBetweenChecks == 0) task.check(progress);
-    if (!is_repairable(mesh, options, todo[i])) continue;
+    if (!is_repairable(mesh, todo[i])) continue;
     chain.assign(1, todo[i]);
     while (!chain.empty()) {
       const std::int32_t h = longest_edge(mesh, chain.back());
@@ -96,7 +95,7 @@ LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, con
       const auto look_at = [&](std::int32_t side) {
         const std::int32_t next = next_in_face(side);
         sides.push_back({side / 3, mesh.lengths[next], mesh.lengths[next_in_face(next)]});
-        if (before >= 0 || side == h || !is_repairable(mesh, options, side / 3)) return;
+        if (before >= 0 || side == h || !is_repairable(mesh, side / 3)) return;
         if (longest_edge(mesh, side / 3) != side) before = side / 3;
       };
       look_at(h);
@@ -115,14 +114,14 @@ LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, con
       // Rounding may leave one of them invalid.
       for (const Side& side : sides) {
         for (const std::int32_t f : {side.face, part++}) {
-          if (is_repairable(mesh, options, f)) todo.push_back(f);
+          if (is_repairable(mesh, f)) todo.push_back(f);
         }
       }
       chain.pop_back();
     }
   }
   for (std::int32_t f = 0; repair.is_complete && index(f) < mesh.face_count(); ++f) {
-    repair.is_complete = !needs_length_repair(mesh, options, f);
+    repair.is_complete = !needs_length_repair(mesh, f);
   }
   return repair;
 }

@@ -40,7 +40,9 @@ const Format& format_of(const std::filesystem::path& path) {
   for (const Format& format : kFormats) {
     if (ending == format.ending) return format;
   }
-  throw FileError(name_of(path) + ": the name must end in .obj, .ply, .stl or .off");
+  std::string endings;
+  for (const Format& format : kFormats) endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
+  throw FileError(name_of(path) + ": the name must end in one of " + endings);
 }
 
 /// A name beside a file that no other file has.
@@ -98,7 +100,7 @@ void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh) {
   replace(path, format.write(mesh));
 }
 
-void write_lines(const std::filesystem::path& path, std::span<const std::vector<Vector>> lines) {
+void write_lines(const std::filesystem::path& path, const std::vector<std::vector<Vector>>& lines) {
   if (format_of(path).ending != ".obj") throw FileError(name_of(path) + ": the name must end in .obj");
   replace(path, detail::write_obj_lines(lines));
 }

@@ -4,7 +4,7 @@
 
 #include "detail/index.hpp"
 #include "files/formats.hpp"
-#include "files/text.hpp"
+#include "files/text_lines.hpp"
 
 namespace seamwire::detail {
 namespace {

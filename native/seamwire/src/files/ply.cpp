@@ -10,7 +10,7 @@
 #include "detail/index.hpp"
 #include "files/bytes.hpp"
 #include "files/formats.hpp"
-#include "files/text.hpp"
+#include "files/text_lines.hpp"
 #include "seamwire/files/mesh_file.hpp"
 
 namespace seamwire::detail {

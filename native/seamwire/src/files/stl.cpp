@@ -9,7 +9,7 @@
 #include "detail/index.hpp"
 #include "files/bytes.hpp"
 #include "files/formats.hpp"
-#include "files/text.hpp"
+#include "files/text_lines.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/files/mesh_file.hpp"
 #include "seamwire/surface/triangulate.hpp"

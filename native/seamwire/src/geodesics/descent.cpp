@@ -33,7 +33,7 @@ struct Exit {
 };
 
 /// Of the line from a point of the triangle, over any side but those that `skipped` names.
-Exit exit_of(const WalkedMesh::Corners& corners, const Point2& from, const Point2& direction,
+Exit exit_of(const TracingMesh::Corners& corners, const Point2& from, const Point2& direction,
              const std::array<bool, 3>& skipped) {
   Exit exit;
   double soonest = kInfinity;
@@ -53,7 +53,7 @@ Exit exit_of(const WalkedMesh::Corners& corners, const Point2& from, const Point
 
 class Walker {
  public:
-  Walker(const WalkedMesh& mesh, const std::vector<double>& values, const PathEnds& ends, const Task& task)
+  Walker(const TracingMesh& mesh, const std::vector<double>& values, const PathEnds& ends, const Task& task)
       : mesh_(mesh), connectivity_(mesh.mesh()), values_(values), ends_(ends), task_(task) {}
 
   IntrinsicPath run(const PlacedPoint& from) {
@@ -90,7 +90,7 @@ class Walker {
   std::size_t face_of(std::int32_t h) const { return index(h / 3); }
 
   /// Down the gradient in a face.
-  Point2 down(std::int32_t face, const WalkedMesh::Corners& corners) const {
+  Point2 down(std::int32_t face, const TracingMesh::Corners& corners) const {
     const auto& [a, b, c] = connectivity_.triangles[face];
     const double x = (at(b) - at(a)) / corners[1].x;
     return {-x, -(at(c) - at(a) - x * corners[2].x) / corners[2].y};
@@ -217,7 +217,7 @@ class Walker {
     };
     for (const std::int32_t h : mesh_.leaving(v)) {
       const std::int32_t face = h / 3, back = previous_in_face(h), across = next_in_face(h);
-      const WalkedMesh::Corners corners = mesh_.corners(face);
+      const TracingMesh::Corners corners = mesh_.corners(face);
       const auto corner = index(h % 3);
       if (const auto end = ends_.nearest(mesh_, face, corners[corner]); end.length < best_end.length) {
         best_end = end;
@@ -252,7 +252,7 @@ class Walker {
     std::int32_t end_face = -1;
     Move best;
     for (const auto& [face, weights] : from.faces) {
-      const WalkedMesh::Corners corners = mesh_.corners(face);
+      const TracingMesh::Corners corners = mesh_.corners(face);
       const Point2 here = between(corners, weights);
       if (const auto end = ends_.nearest(mesh_, face, here); end.length < best_end.length) {
         best_end = end;
@@ -281,7 +281,7 @@ class Walker {
   }
 
   /// Whether the line leaves the face over a side that its start is on.
-  static bool leaves_at_once(const WalkedMesh::Corners& corners, const std::array<bool, 3>& sides,
+  static bool leaves_at_once(const TracingMesh::Corners& corners, const std::array<bool, 3>& sides,
                              const Point2& direction) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2 &a = corners[i], &b = corners[(i + 1) % 3];
@@ -294,7 +294,7 @@ class Walker {
     Move best;
     double lowest = kInfinity;
     for (const auto& [face, weights] : from.faces) {
-      const WalkedMesh::Corners corners = mesh_.corners(face);
+      const TracingMesh::Corners corners = mesh_.corners(face);
       const bool is_on_edge = std::ranges::count(weights, 0.0) > 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t v = connectivity_.triangles[face][i];
@@ -321,7 +321,7 @@ class Walker {
               .vertex = is_tail ? tail : tip};
     connectivity_.for_each_beyond(h, [&](std::int32_t other) {
       const std::int32_t face = other / 3;
-      const WalkedMesh::Corners corners = mesh_.corners(face);
+      const TracingMesh::Corners corners = mesh_.corners(face);
       const auto side = index(other % 3);
       const double t = is_mirrored(connectivity_, h, other) ? t_ : 1 - t_;
       const Point2 &a = corners[side], &b = corners[(side + 1) % 3];
@@ -350,7 +350,7 @@ class Walker {
     }
   }
 
-  const WalkedMesh& mesh_;
+  const TracingMesh& mesh_;
   const IntrinsicMesh& connectivity_;
   const std::vector<double>& values_;
   const PathEnds& ends_;
@@ -368,7 +368,7 @@ class Walker {
 
 }  // namespace
 
-WalkedMesh::WalkedMesh(const IntrinsicMesh& mesh, const Task& task) {
+TracingMesh::TracingMesh(const IntrinsicMesh& mesh, const Task& task) {
   mesh_.vertex_count = mesh.vertex_count;
   mesh_.triangles = copied(mesh.triangles, task, 0.0);
   mesh_.twins = copied(mesh.twins, task, 0.0);
@@ -392,7 +392,7 @@ WalkedMesh::WalkedMesh(const IntrinsicMesh& mesh, const Task& task) {
   });
 }
 
-WalkedMesh::Corners WalkedMesh::corners(std::int32_t face) const {
+TracingMesh::Corners TracingMesh::corners(std::int32_t face) const {
   const double* lengths = &mesh_.lengths[3 * index(face)];
   const double a = lengths[0], b = lengths[1], c = lengths[2];
   const double area = mesh_.areas.empty() ? 0.0 : mesh_.areas[face];
@@ -400,7 +400,7 @@ WalkedMesh::Corners WalkedMesh::corners(std::int32_t face) const {
   return {{{0.0, 0.0}, {a, 0.0}, {(a * a + c * c - b * b) / (2 * a), four / (2 * a)}}};
 }
 
-PlacedPoint WalkedMesh::place(const SurfacePoint& point, const std::string& what) const {
+PlacedPoint TracingMesh::place(const SurfacePoint& point, const std::string& what) const {
   if (point.vertex >= 0) {
     check_index(point.vertex, index(mesh_.vertex_count), what + ": vertex");
     return PlacedPoint::at_vertex(point.vertex);
@@ -432,9 +432,9 @@ PathEnds::PathEnds(std::vector<PlacedPoint> points) : points_(std::move(points))
   }
 }
 
-PathEnds::Straight PathEnds::nearest(const WalkedMesh& mesh, std::int32_t face, const Point2& from) const {
+PathEnds::Straight PathEnds::nearest(const TracingMesh& mesh, std::int32_t face, const Point2& from) const {
   Straight nearest{kInfinity, {}};
-  const WalkedMesh::Corners corners = mesh.corners(face);
+  const TracingMesh::Corners corners = mesh.corners(face);
   const auto see = [&](const Point2& place, const PathPoint& end) {
     if (const double length = distance(from, place); length < nearest.length) nearest = {length, end};
   };
@@ -452,14 +452,14 @@ PathEnds::Straight PathEnds::nearest(const WalkedMesh& mesh, std::int32_t face, 
   return nearest;
 }
 
-bool PathEnds::are_around(const WalkedMesh& mesh, std::int32_t vertex) const {
+bool PathEnds::are_around(const TracingMesh& mesh, std::int32_t vertex) const {
   return std::ranges::any_of(mesh.leaving(vertex), [&](std::int32_t h) {
     return in_face_.contains(h / 3) ||
            std::ranges::any_of(mesh.mesh().triangles[h / 3], [&](std::int32_t v) { return has_vertex(v); });
   });
 }
 
-IntrinsicPath descend(const WalkedMesh& mesh, const std::vector<double>& values, const PathEnds& ends,
+IntrinsicPath descend(const TracingMesh& mesh, const std::vector<double>& values, const PathEnds& ends,
                       const PlacedPoint& from, const Task& task) {
   const std::int32_t any = from.vertex >= 0 ? from.vertex : mesh.mesh().triangles[from.faces.front().face][0];
   if (std::isinf(values[any])) return {};

@@ -21,7 +21,7 @@
 namespace seamwire::detail {
 
 /// A mesh with what a path needs to walk over it.
-class WalkedMesh {
+class TracingMesh {
  public:
   struct Loose {
     std::int32_t to;
@@ -30,7 +30,7 @@ class WalkedMesh {
   using Corners = std::array<Point2, 3>;
 
   /// The mesh must be valid. Throws Cancelled.
-  WalkedMesh(const IntrinsicMesh& mesh, const Task& task);
+  TracingMesh(const IntrinsicMesh& mesh, const Task& task);
 
   const IntrinsicMesh& mesh() const { return mesh_; }
   std::span<const std::int32_t> leaving(std::int32_t vertex) const { return leaving_[vertex]; }
@@ -59,9 +59,9 @@ class PathEnds {
     PathPoint end;
   };
   /// The end on a face that is nearest to a point of it. Infinitely far if the face has no end.
-  Straight nearest(const WalkedMesh& mesh, std::int32_t face, const Point2& from) const;
+  Straight nearest(const TracingMesh& mesh, std::int32_t face, const Point2& from) const;
   /// Whether an end is on one of the faces around a vertex.
-  bool are_around(const WalkedMesh& mesh, std::int32_t vertex) const;
+  bool are_around(const TracingMesh& mesh, std::int32_t vertex) const;
 
  private:
   std::vector<PlacedPoint> points_;
@@ -70,7 +70,7 @@ class PathEnds {
 };
 
 /// The position of barycentric coordinates between corners.
-inline Point2 between(const WalkedMesh::Corners& corners, const std::array<double, 3>& weights) {
+inline Point2 between(const TracingMesh::Corners& corners, const std::array<double, 3>& weights) {
   return {weights[0] * corners[0].x + weights[1] * corners[1].x + weights[2] * corners[2].x,
           weights[1] * corners[1].y + weights[2] * corners[2].y};
 }
@@ -81,7 +81,7 @@ inline Point2 between(const WalkedMesh::Corners& corners, const std::array<doubl
 /// goes straight to an end that is on the same face. At a vertex that is lower than all around it, it follows edges to
 /// the nearest lower one. Such detours apart, each vertex of the path is lower than the one before, so the path ends.
 /// Throws Cancelled.
-IntrinsicPath descend(const WalkedMesh& mesh, const std::vector<double>& values, const PathEnds& ends,
+IntrinsicPath descend(const TracingMesh& mesh, const std::vector<double>& values, const PathEnds& ends,
                       const PlacedPoint& from, const Task& task);
 
 }  // namespace seamwire::detail

@@ -31,7 +31,7 @@ struct HeatGeodesics::Prepared {
                                    [&](const Task& own) { return GeodesicMesh(mesh.mesh(), own); });
   }
 
-  WalkedMesh mesh;
+  TracingMesh mesh;
   HeatSystem system;
   mutable ComputedOnce<GeodesicMesh> made_geodesic_mesh;
 };
@@ -108,7 +108,7 @@ class HeatGeodesics::Solved final : public SolvedField {
     if (point.vertex >= 0) return distances[static_cast<std::size_t>(point.vertex)];
     double least = kInfinity, value = 0.0;
     for (const auto& [face, weights] : point.faces) {
-      const WalkedMesh::Corners corners = prepared_->mesh.corners(face);
+      const TracingMesh::Corners corners = prepared_->mesh.corners(face);
       least = std::min(least, ends_.nearest(prepared_->mesh, face, between(corners, weights)).length);
     }
     const auto& [face, weights] = point.faces.front();
@@ -135,7 +135,7 @@ std::size_t HeatGeodesics::flips() const { return prepared_->system.flips(); }
 
 DistanceField HeatGeodesics::solve_checked(std::span<const SurfacePoint> sources, const SolveOptions& options,
                                            const Task& task) const {
-  const WalkedMesh& mesh = prepared_->mesh;
+  const TracingMesh& mesh = prepared_->mesh;
   std::vector<PlacedPoint> placed;
   std::vector<HeatSource> heat;
   for (const SurfacePoint& source : sources) {
@@ -147,7 +147,7 @@ DistanceField HeatGeodesics::solve_checked(std::span<const SurfacePoint> sources
       continue;
     }
     const auto& [face, weights] = placed.back().faces.front();
-    const WalkedMesh::Corners corners = mesh.corners(face);
+    const TracingMesh::Corners corners = mesh.corners(face);
     here.vertices = mesh.mesh().triangles[static_cast<std::size_t>(face)];
     here.weights = weights;
     for (std::size_t i = 0; i < 3; ++i) {

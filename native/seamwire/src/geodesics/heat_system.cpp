@@ -76,7 +76,7 @@ HeatSystem::HeatSystem(const IntrinsicMesh& mesh, const Task& task) {
   release(triangles.corners);
   for (const Strip& strip : strips_) edges.push_back({strip.a, strip.b});
   find_components();
-  const double time = needed_time(part_of(task, 0.35, 0.4));
+  const double time = diffusion_time(part_of(task, 0.35, 0.4));
   heat_.emplace(unknown_count_, edges, part_of(task, 0.4, 0.6));
   release(edges);
   poisson_ = heat_;
@@ -117,7 +117,7 @@ void HeatSystem::find_components() {
 
 /// The time of the method: the square of the mean edge, or as much more as a wide mesh needs, so that some heat arrives
 /// everywhere.
-double HeatSystem::needed_time(const Task& task) const {
+double HeatSystem::diffusion_time(const Task& task) const {
   struct Way {
     std::int32_t to;
     double length;

@@ -47,7 +47,7 @@ class HeatSystem {
 
   void number_unknowns(const IntrinsicMesh& mesh, double mean);
   void find_components();
-  double needed_time(const Task& task) const;
+  double diffusion_time(const Task& task) const;
   void fill(double time, const Task& task);
   std::vector<double> divergence(const std::vector<double>& heat, const Task& task) const;
 

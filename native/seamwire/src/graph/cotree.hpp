@@ -23,13 +23,13 @@ struct Cotree {
     for (std::size_t i = 0; i < edge_count; ++i) {
       poll.at(i);
       const auto [one, other] = sides(i);
-      (parts.join(one, other) ? crossed : closing).push_back(static_cast<std::int32_t>(i));
+      (parts.join(one, other) ? crossed : generators).push_back(static_cast<std::int32_t>(i));
     }
   }
 
-  DisjointSets parts;                 ///< of faces that are joined over the edges
-  std::vector<std::int32_t> crossed;  ///< the edges of a tree of the faces of each part
-  std::vector<std::int32_t> closing;  ///< the edges of neither tree
+  DisjointSets parts;                    ///< of faces that are joined over the edges
+  std::vector<std::int32_t> crossed;     ///< the edges of a tree of the faces of each part
+  std::vector<std::int32_t> generators;  ///< the edges of neither tree
 };
 
 }  // namespace seamwire::detail

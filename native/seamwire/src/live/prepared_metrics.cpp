@@ -34,7 +34,7 @@ bool is_scribbled(const Surface& surface, const std::vector<Scribble>& scribbles
 
 /// Embedding::mean_edge_length of a metric.
 double mean_edge_length(const Surface& surface, const Metric& metric, const Task& task) {
-  const EmbedOptions options;
+  const EmbedOptions options{.max_error = 0};
   return BisectedMesh(EmbeddingInput(surface, metric, options), task, 0.0).mean_edge_length();
 }
 

@@ -118,7 +118,7 @@ class FaceTree {
         faces_[f].edges ^= edge;
       }
     }
-    for (const std::int32_t edge : tree_.closing) {
+    for (const std::int32_t edge : tree_.generators) {
       const std::uint64_t hash = scattered(index(edge));
       faces_[closing[edge].a].crossing ^= hash;
       faces_[closing[edge].b].crossing ^= hash;
@@ -139,7 +139,7 @@ class FaceTree {
       const double side = std::min(faces_[hanging].area, all - faces_[hanging].area);
       if (!separates || side >= kLeastArea * all) visit(edge, separates);
     }
-    for (const std::int32_t edge : tree_.closing) visit(edge, false);
+    for (const std::int32_t edge : tree_.generators) visit(edge, false);
   }
 
  private:

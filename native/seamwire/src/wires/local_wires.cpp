@@ -124,7 +124,7 @@ void NearbyWires::embed_within(double radius, const Task& task) {
   if (faces.empty()) return;
   const std::size_t most_added = kMostAddedPerFace * faces.size();
   auto embedding = std::make_shared<const Embedding>(
-      embed(*surface_, *metric_, {.max_faces_added = most_added, .faces = std::move(faces)}, task));
+      embed(*surface_, *metric_, {.max_faces_added = most_added, .max_error = 0, .faces = std::move(faces)}, task));
   paths_.reset();
   on_.emplace(surface_, std::move(embedding), task);
   radius_ = radius;

@@ -121,7 +121,7 @@ std::vector<std::uint8_t> greedy_system(const Island& island, const Paths& paths
   const auto sides = [&](std::size_t i) { return std::pair(order[i] / 3, island.twins[order[i]] / 3); };
   const Cotree cotree(island.triangles.size(), order.size(), sides, Poll(task));
   std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
-  for (const std::int32_t i : cotree.closing) {
+  for (const std::int32_t i : cotree.generators) {
     const std::int32_t h = order[i];
     if (!paths.can_be_cut(h)) continue;
     is_cut[h] = is_cut[island.twins[h]] = 1;

@@ -250,7 +250,7 @@ class HandleLoops {
     };
     const Cotree cotree(island_.triangles.size(), inner.size(), sides, Poll(task_));
     std::vector<std::pair<double, std::int32_t>> through;  // the half-edges that loops lead through
-    for (const std::int32_t i : cotree.closing) {
+    for (const std::int32_t i : cotree.generators) {
       if (std::isfinite(inner[i].first)) through.emplace_back(-inner[i].first, inner[i].second);
     }
     std::vector<std::int32_t> crossed;  // half-edges of a tree of triangles

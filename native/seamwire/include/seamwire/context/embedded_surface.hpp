@@ -101,7 +101,7 @@ class SEAMWIRE_API EmbeddedSurface {
   /// Return the heat method on the embedding, for field() with a method.
   ///
   /// \throws InvalidInput if the constructor of HeatGeodesics rejects the embedding
-  const HeatGeodesics& heat(const Task& = {}) const;
+  const HeatGeodesics& heat_geodesics(const Task& = {}) const;
   /// Return the search for points of the surface on the embedding.
   const EmbeddedPoints& points() const;
   /// Find a point of the surface on the embedding.

@@ -43,6 +43,10 @@ class SEAMWIRE_API SurfaceContext {
   /// \throws InvalidInput if the surface is null
   template <std::convertible_to<std::shared_ptr<const Surface>> Shared>
   SurfaceContext(Shared surface) : SurfaceContext(std::shared_ptr<const Surface>(std::move(surface))) {}
+  /// Make the context of a surface that only the context has.
+  ///
+  /// \param surface the surface
+  explicit SurfaceContext(Surface surface) : SurfaceContext(std::make_shared<const Surface>(std::move(surface))) {}
   /// Make the context of a surface that is built when it is first needed.
   ///
   /// \param points as in the constructor of Surface

@@ -14,25 +14,15 @@
 
 namespace seamwire {
 
-/// How the perimeter of an invalid triangle is measured, for its priority and for sigma: in the metric, or in space.
-enum class Perimeter { kMetric, kEuclidean };
-
 /// How far the subdivision goes.
 struct EmbedOptions {
-  /// Bisection stops once every invalid triangle left has a smaller perimeter than sigma. 0 or more, of the model
-  /// scaled to the unit cube. 0: bisection continues until no invalid triangle is left.
-  ///
-  /// \see Zhuang et al. 2014, Section 4.1
-  double sigma = 0.0;
-  /// The perimeter that decides which triangle is bisected first, and that is compared with sigma.
-  Perimeter perimeter = Perimeter::kMetric;
   /// The largest number of triangles to add. Triangles that are then still invalid become holes. A larger cap never
   /// leaves more holes.
   std::size_t max_faces_added = 4'000'000;
   /// The mean relative error of distances to aim for, in [0, 1]. Triangles are bisected until they resolve the metric
   /// that well. The error is estimated, not proved (see Resolution). 0: only invalid triangles are bisected, as in the
   /// paper.
-  double max_error = 0.0;
+  double max_error = 0.01;
   /// The caller's faces to embed, in any order. All others are left out, as if the surface ended there. Edges without a
   /// face stay. nullopt: all faces.
   ///
@@ -61,11 +51,6 @@ struct Resolution {
   /// Number of triangles that miss `max_error`. They are 14 bisections deep, or the budget or the cap allows no more
   /// triangles.
   std::size_t unmet = 0;
-  /// Eta, the largest |ln| of the ratio between a vector's length at a corner of a triangle and in the triangle.
-  ///
-  /// Without holes, distances are proved to be within a factor of e^eta of the distances in a metric that varies
-  /// linearly. That metric varies, in each triangle of the embedding, between the forms at its corners.
-  double largest_deviation = 0.0;
 };
 
 /// A surface in an anisotropic metric, as a refined mesh with edge lengths.
@@ -82,7 +67,7 @@ struct Embedding {
   std::size_t faces_added = 0;            ///< triangles that the subdivision added
   /// Bisections opposite the newest vertex. They take over where other schemes do not end.
   std::size_t newest_bisections = 0;
-  /// Triangles left as holes: without an area, smaller than sigma, or beyond the cap.
+  /// Triangles left as holes: without an area, or beyond the cap.
   std::size_t invalid_left = 0;
   bool hit_cap = false;  ///< whether EmbedOptions::max_faces_added ended the subdivision
   /// Mean length of an edge of the embedded faces, in the metric, before any bisection. It is

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -53,6 +52,6 @@ SEAMWIRE_API void write_mesh(const std::filesystem::path& path, const PolygonMes
 /// \param path the file, whose name ends in .obj
 /// \param lines the points of each polyline
 /// \throws FileError if the name has another ending, or the file cannot be written
-SEAMWIRE_API void write_lines(const std::filesystem::path& path, std::span<const std::vector<Vector>> lines);
+SEAMWIRE_API void write_lines(const std::filesystem::path& path, const std::vector<std::vector<Vector>>& lines);
 
 }  // namespace seamwire

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "files/text.hpp"
+#include "files/text_lines.hpp"
 
 #include <algorithm>
 #include <charconv>
