@@ -28,10 +28,6 @@ ROOT = Path(__file__).parents[2]
 INVALID, MENDED = (0.15, 0.35, 0.95), (0.62, 0.78, 1.0)
 SIZES = {"rocker-arm": 50_000, "armadillo": 100_000, "nefertiti": 200_000}
 """Triangles of the models in Figure 8: as many as the paper's have."""
-_FEW = 20
-"""Up to so many remaining parts have larger dots in Figure 9."""
-_PARTS = (0.25, 0.5, 0.75, 1.0)
-"""The shares of the triangles that have to be added, after which Figure 9 stops."""
 OTHERS = {
     "Rocker (50k)": (
         (10, 0.065, 10.72, 0.003, 45, 100, 0.43),
@@ -187,31 +183,18 @@ def _timed(*calls: Callable[[], object]) -> tuple[float, object]:
 
 
 def campens_invalid(studio: Studio) -> Image.Image:
-    """Figure 9: invalid triangles in Campen's metric, A = 20, before, while and after triangles are cut."""
-    rows = []
+    """Figure 9: invalid triangles in Campen's metric, A = 20, before and after triangles are cut."""
+    panels = []
     for names in (("armadillo", "suzanne"), ("rocker-arm",)):
         model = studio.model(*names)
         metric = model.metric("campen", max_anisotropy=20.0)
         faces = studio.core.invalid_faces(model.surface, metric)
-        whole = model.embed(metric).faces_added
-        made = [
-            studio.core.embed(model.surface, metric, max_faces_added=round(part * whole), max_error=0)
-            for part in _PARTS
-        ]
-        # Most of what is left last is in front.
-        left = next((one.hole_faces for one in reversed(made) if len(one.hole_faces)), faces)
-        x, y, z = model.curvature.normals[model.triangles[left]].mean(axis=(0, 1))
-        view = (
-            float(np.degrees(np.arctan2(y, x))),
-            float(np.clip(np.degrees(np.arctan2(z, np.hypot(x, y))), -50.0, 50.0)),
-        )
-        colors = np.tile(CLAY, (len(model.triangles), 1))
-        colors[faces] = INVALID
-        panels = [Panel(studio.render(studio.stage(model, 5, colors=colors, view=view)), f"before: {len(faces)}")]
-        for one in made:
-            stage = studio.stage(model, 5, view=view)
-            radius = 0.006 if one.invalid_left > _FEW else 0.012
-            stage.balls(model.points[model.triangles[one.hole_faces]].mean(axis=1), INVALID, radius)
-            panels.append(Panel(studio.render(stage), f"{one.faces_added:,} added: {one.invalid_left}"))
-        rows.append(panels)
-    return sheet(rows)
+        made = model.embed(metric)
+        for color, text in (
+            (INVALID, f"before: {len(faces):,} invalid"),
+            (MENDED, f"{made.faces_added:,} added: {made.invalid_left} invalid"),
+        ):
+            colors = np.tile(CLAY, (len(model.triangles), 1))
+            colors[faces] = color
+            panels.append(Panel(studio.render(studio.stage(model, 4, colors=colors)), text))
+    return sheet([panels])
