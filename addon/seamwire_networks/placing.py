@@ -460,4 +460,4 @@ def _distances(shape: Shape, vertices: NDArray[np.int64], progress: Progress) ->
     flat = core.embed(surface, metric, progress=next(parts), max_error=0)
     # Several pairs at one vertex, and pairs on separate parts, each count.
     fields = [core.distance_field(flat, int(vertex), progress=next(parts)) for vertex in vertices]
-    return np.stack([field.distances / surface.scale for field in fields], axis=1)
+    return np.stack([field.distances for field in fields], axis=1)

@@ -145,7 +145,7 @@ def test_pages_of_the_development_name_what_there_is(page: str) -> None:
     def exists(owner: str, member: str | None) -> bool:
         if member is None or not owner.strip("_")[0].isupper():
             return re.search(rf"\b{member or owner}\b", code) is not None
-        body = rf"^(class|struct)( SEAMWIRE_(UV_)?API)? {owner}\b(?:(?!^(?:class|struct) ).)*?\b{member}[(:]"
+        body = rf"^(class|struct)( SEAMWIRE_(UV_)?API)? {owner}\b(?:(?!^(?:class|struct) ).)*?\b{member} ?[(:=;{{]"
         return re.search(body, code, re.MULTILINE | re.DOTALL) is not None
 
     missing = [match[0] for match in words if not exists(*match.groups())]

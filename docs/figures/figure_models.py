@@ -62,7 +62,7 @@ class Model:
     @property
     def strength(self) -> NDArray[np.float64]:
         """The feature strength s of eq. 5, (n,)."""
-        return self.curvature.difference
+        return self.curvature.difference * self.size
 
     @property
     def size(self) -> float:

@@ -86,8 +86,7 @@ MetricSurface metric_surface(const Surface& surface, const Metric& metric) {
       !report.degenerate_faces.empty() || !report.duplicate_faces.empty() || !surface.loose_edges().empty()) {
     throw InvalidInput("the direct methods want a manifold, oriented surface without loose edges");
   }
-  MetricSurface result{{}, surface.triangles(), twins_of(surface.triangles()), metric, {}, {}, {}};
-  for (const Vector& p : surface.points()) result.points.push_back(surface.scale() * p);
+  MetricSurface result{surface.points(), surface.triangles(), twins_of(surface.triangles()), metric, {}, {}, {}};
   for (std::size_t v = 0; v < metric.size(); ++v) {
     const Vector& n = metric.normals[v];
     result.forms.push_back(metric.tensors[v] + normal_weight(metric.tensors[v]) * n * n.transpose());

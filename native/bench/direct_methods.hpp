@@ -19,7 +19,7 @@ namespace seamwire::bench {
 /// A surface with a metric, as these methods read it. All read the same one: a quadratic form at each vertex, the
 /// ambient reading of metric.hpp, in between linear.
 struct MetricSurface {
-  std::vector<Vector> points;  ///< in the unit cube
+  std::vector<Vector> points;  ///< of the surface
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> twins;          ///< per half-edge, as in IntrinsicMesh
   Metric metric;                            ///< at the vertices

@@ -69,19 +69,19 @@ def first_solver(embedding: sw.Embedding, method: str) -> Solve:
     return lambda seed: sw.distance_field(embedding, seed, method=method).distances
 
 
-def errors(measured: Measured, exact: Measured, scale: float = 1.0) -> tuple[float, float]:
+def errors(measured: Measured, exact: Measured) -> tuple[float, float]:
     """Return the mean and the largest error relative to exact distances, over all seeds."""
     every = []
     for mine, right in zip(measured.fields, exact.fields, strict=True):
         known = np.isfinite(right) & (right > 0)
-        every.append(np.abs(scale * mine[known] - right[known]) / right[known])
+        every.append(np.abs(mine[known] - right[known]) / right[known])
     error = np.concatenate(every)
     return float(error.mean()), float(error.max())
 
 
-def cells(measured: Measured, exact: Measured, scale: float = 1.0) -> str:
+def cells(measured: Measured, exact: Measured) -> str:
     """Return the cells of an approximate method."""
-    mean, most = errors(measured, exact, scale)
+    mean, most = errors(measured, exact)
     return f"{1e3 * measured.prepared:.0f} / {1e3 * measured.solved:.1f} ms | {1e2 * mean:.2f} / {1e2 * most:.0f} %"
 
 
@@ -113,7 +113,6 @@ def compare(file: Path, options: argparse.Namespace) -> None:
                     options.repeats,
                 ),
                 exact,
-                surface.scale,
             )
         print(
             f"| {file.stem}, {name} ({len(embed().triangles):,}) | {1e3 * exact.prepared:.0f} / {1e3 * exact.solved:.1f} ms "

@@ -66,12 +66,12 @@ Weights weights_in(const Surface& surface, std::int32_t face, const Vector& poin
   return {1 - b - c, b, c};
 }
 
-/// The length of a wire in the metric, of the model scaled to the unit cube.
+/// The length of a wire in the metric.
 double integrated(const Surface& surface, const Metric& metric, const LiveCandidate& wire) {
   constexpr int kSamples = 16;
   double length = 0.0;
   for (std::size_t i = 0; i < wire.faces.size(); ++i) {
-    const Vector step = surface.scale() / kSamples * (wire.points[i + 1] - wire.points[i]);
+    const Vector step = 1.0 / kSamples * (wire.points[i + 1] - wire.points[i]);
     std::array<TensorAt, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto v = static_cast<std::size_t>(surface.triangles()[static_cast<std::size_t>(wire.faces[i])][c]);

@@ -49,7 +49,7 @@ def seamwire(points: Array, triangles: NDArray[np.int32]) -> Solve:
     metric = sw.euclidean_metric(surface, sw.principal_curvatures(surface))
     embedding = sw.embed(surface, metric, max_error=0)
     sw.distance_field(embedding, 0, max_distance=0.0)  # the solver's own form of the mesh is made once
-    return lambda seed: sw.distance_field(embedding, seed).distances / surface.scale
+    return lambda seed: sw.distance_field(embedding, seed).distances
 
 
 def pygeodesic(points: Array, triangles: NDArray[np.int32]) -> Solve:

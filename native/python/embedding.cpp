@@ -255,7 +255,7 @@ metric : Metric
 Returns
 -------
 (e,) float64
-    Lengths of `Surface.edges`, of the model scaled to the unit cube.
+    Lengths of `Surface.edges`, in the unit of the points.
 
 Raises
 ------

@@ -469,7 +469,7 @@ Returns
 -------
 EdgeChain
     It begins with the edge's second vertex. Only its last vertex may be an earlier vertex, or the edge's first. The
-    length is Euclidean, in the unit cube. It has no vertices before the surface is built.
+    length is Euclidean, in the unit of the points. It has no vertices before the surface is built.
 
 Raises
 ------

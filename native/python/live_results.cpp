@@ -135,8 +135,7 @@ void bind_live_closed_wires(py::module_& module) {
                              "barycentric coordinates. The second point may be a vertex.")
       .def_readonly("separates", &LiveClosedWire::separates, "bool: as `ClosedWire.separates`.")
       .def_readonly("turn", &LiveClosedWire::turn, "float: as `ClosedWire.turn`.")
-      .def_readonly("length", &LiveClosedWire::length,
-                    "float: the length in its metric, of the model scaled to the unit cube.")
+      .def_readonly("length", &LiveClosedWire::length, "float: the length in its metric, in the unit of the points.")
       .def_property_readonly(
           "id", [](const LiveClosedWire& wire) { return std::pair(wire.id.metric, wire.id.number); },
           "(int, int): the number of the cut's metric and of the cut in it, for `LiveWire.bent_wire`. They may change "

@@ -54,7 +54,7 @@ void bind_curvature(py::module_& module) {
   py::class_<CurvatureObject, Held<CurvatureObject>>(module, "Curvature",
                                                      R"(Principal curvatures at the vertices of a surface.
 
-They are those of the model scaled to the unit cube, in 1 / side of the cube. Vertices without a usable face have
+Their unit is 1 / unit of the points. Vertices without a usable face have
 curvature 0.)")
       .def_property_readonly("k1", array(&Curvature::k1), "(n,) float64: the curvature with the larger absolute value.")
       .def_property_readonly("k2", array(&Curvature::k2),
@@ -115,7 +115,7 @@ surface : Surface
 curvature : Curvature
     Of that surface.
 radius : float
-    Above 0, in sides of the unit cube. It is met approximately.
+    Above 0, as a share of the longest side of the box around the surface. It is met approximately.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 
@@ -174,8 +174,8 @@ Parameters
 normals : (n, 3) array_like of float
     Unit normals, such as `Curvature.normals`. Zero at vertices without a face.
 tensors : (n, 3, 3) array_like of float
-    Symmetric tensors, which map the normal to zero. A tangent vector x at a vertex of the model scaled to the unit cube
-    has the length sqrt(x tensor x).
+    Symmetric tensors, which map the normal to zero. A tangent vector x at a vertex has the
+    length sqrt(x tensor x).
 
 Raises
 ------
@@ -208,7 +208,7 @@ of : {'norm', 'reach'}
 Returns
 -------
 (n, 2, 3) float64
-    The two semi-axes, the longer one first, of the model scaled to the unit cube. Zero at vertices without a face.
+    The two semi-axes, the longer one first. Zero at vertices without a face.
 
 Raises
 ------

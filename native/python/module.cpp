@@ -11,8 +11,7 @@ PYBIND11_MODULE(seamwire_core, module) {
 
 The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
-Points are in the caller's coordinates. Lengths and curvatures are those of the model scaled to the unit cube (Section 3
-of the paper), unless a docstring says otherwise. Arrays that a result hands out are read-only views of its memory.
+Points, lengths and curvatures are in the caller's unit. Arrays that a result hands out are read-only views of its memory.
 
 Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a
 function of the fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long

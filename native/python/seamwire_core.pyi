@@ -4,8 +4,7 @@
 
 The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
-Points are in the caller's coordinates. Lengths and curvatures are those of the model scaled to the unit cube (Section 3
-of the paper), unless a docstring says otherwise. Arrays that a result hands out are read-only views of its memory.
+Points, lengths and curvatures are in the caller's unit. Arrays that a result hands out are read-only views of its memory.
 
 Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a
 function of the fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long
@@ -241,7 +240,7 @@ def triangulate(points: ArrayLike, corners: ArrayLike, sizes: ArrayLike) -> tupl
 class Curvature:
     """Principal curvatures at the vertices of a surface.
 
-    They are those of the model scaled to the unit cube, in 1 / side of the cube. Vertices without a usable face have
+    Their unit is 1 / unit of the points. Vertices without a usable face have
     curvature 0.
     """
 
@@ -295,7 +294,7 @@ def smoothed_curvatures(
     curvature : Curvature
         Of that surface.
     radius : float
-        Above 0, in sides of the unit cube. It is met approximately.
+        Above 0, as a share of the longest side of the box around the surface. It is met approximately.
     progress : callable, optional
         Called repeatedly with the fraction done. Returning False cancels.
 
@@ -320,8 +319,8 @@ class Metric:
     normals : (n, 3) array_like of float
         Unit normals, such as `Curvature.normals`. Zero at vertices without a face.
     tensors : (n, 3, 3) array_like of float
-        Symmetric tensors, which map the normal to zero. A tangent vector x at a vertex of the model scaled to the unit cube
-        has the length sqrt(x tensor x).
+        Symmetric tensors, which map the normal to zero. A tangent vector x at a vertex has the
+        length sqrt(x tensor x).
 
     Raises
     ------
@@ -353,7 +352,7 @@ class Metric:
         Returns
         -------
         (n, 2, 3) float64
-            The two semi-axes, the longer one first, of the model scaled to the unit cube. Zero at vertices without a face.
+            The two semi-axes, the longer one first. Zero at vertices without a face.
 
         Raises
         ------
@@ -831,7 +830,7 @@ def metric_lengths(surface: Surface, metric: Metric) -> NDArray[np.float64]:
     Returns
     -------
     (e,) float64
-        Lengths of `Surface.edges`, of the model scaled to the unit cube.
+        Lengths of `Surface.edges`, in the unit of the points.
 
     Raises
     ------
@@ -851,9 +850,9 @@ class Wire:
     faces: NDArray[np.int32]
     """(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face."""
     length: float
-    """float: the length in the metric, of the model scaled to the unit cube."""
+    """float: the length in the metric, in the unit of the points."""
     euclidean_length: float
-    """float: the Euclidean length, of the model scaled to the unit cube."""
+    """float: the Euclidean length, in the unit of the points."""
 
 class ClosedWire:
     """A closed cut through a seed."""
@@ -863,9 +862,9 @@ class ClosedWire:
     faces: NDArray[np.int32]
     """(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face."""
     length: float
-    """float: the length in the metric, of the model scaled to the unit cube."""
+    """float: the length in the metric, in the unit of the points."""
     euclidean_length: float
-    """float: the Euclidean length, of the model scaled to the unit cube."""
+    """float: the Euclidean length, in the unit of the points."""
     separates: bool
     """bool: whether the cut divides the surface into two parts. False if it runs around or through a handle."""
     turn: float
@@ -1570,7 +1569,7 @@ class LiveClosedWire:
     turn: float
     """float: as `ClosedWire.turn`."""
     length: float
-    """float: the length in its metric, of the model scaled to the unit cube."""
+    """float: the length in its metric, in the unit of the points."""
     id: tuple[int, int]
     """(int, int): the number of the cut's metric and of the cut in it, for `LiveWire.bent_wire`. They may change until the cuts are final."""
 
@@ -1860,7 +1859,7 @@ class LiveWire:
         -------
         EdgeChain
             It begins with the edge's second vertex. Only its last vertex may be an earlier vertex, or the edge's first. The
-            length is Euclidean, in the unit cube. It has no vertices before the surface is built.
+            length is Euclidean, in the unit of the points. It has no vertices before the surface is built.
 
         Raises
         ------
@@ -3197,7 +3196,7 @@ class CrestLines:
     t: NDArray[np.float64]
     """(p,) float64: the position on that edge, from 0 at its first vertex to 1 at its second."""
     curvatures: NDArray[np.float64]
-    """(p,) float64: k1, in 1 / side of the unit cube. Above 0 on ridges, below 0 in valleys."""
+    """(p,) float64: k1, in 1 / unit of the points. Above 0 on ridges, below 0 in valleys."""
     faces: NDArray[np.int32]
     """(p,) int32: the triangle between a point and the next; -1 for a line's last point."""
     starts: NDArray[np.int32]

@@ -30,7 +30,7 @@ void bind_crest_lines_class(py::module_& module) {
       .def_property_readonly("t", array_of<CrestLines>(&CrestLines::t),
                              "(p,) float64: the position on that edge, from 0 at its first vertex to 1 at its second.")
       .def_property_readonly("curvatures", array_of<CrestLines>(&CrestLines::curvatures),
-                             "(p,) float64: k1, in 1 / side of the unit cube. Above 0 on ridges, below 0 in valleys.")
+                             "(p,) float64: k1, in 1 / unit of the points. Above 0 on ridges, below 0 in valleys.")
       .def_property_readonly("faces", array_of<CrestLines>(&CrestLines::faces),
                              "(p,) int32: the triangle between a point and the next; -1 for a line's last point.")
       .def_property_readonly("starts", array_of<CrestLines>(&CrestLines::starts),

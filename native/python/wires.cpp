@@ -31,9 +31,9 @@ void bind_wire(py::module_& module) {
       .def_property_readonly("points", array_of<Wire>(&Wire::points), "(p, 3) float64: in the caller's coordinates.")
       .def_property_readonly("faces", array_of<Wire>(&Wire::faces),
                              "(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face.")
-      .def_readonly("length", &Wire::length, "float: the length in the metric, of the model scaled to the unit cube.")
+      .def_readonly("length", &Wire::length, "float: the length in the metric, in the unit of the points.")
       .def_readonly("euclidean_length", &Wire::euclidean_length,
-                    "float: the Euclidean length, of the model scaled to the unit cube.")
+                    "float: the Euclidean length, in the unit of the points.")
       .def("__repr__", [](const Wire& w) {
         return "<Wire: from " + std::to_string(w.from) + " to " + std::to_string(w.to) + ", " +
                std::to_string(w.points.size()) + " points, length " + number(w.length) + ">";
@@ -48,10 +48,10 @@ void bind_closed_wire(py::module_& module) {
                              "(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face.")
       .def_property_readonly(
           "length", [](const ClosedWire& w) { return w.wire.length; },
-          "float: the length in the metric, of the model scaled to the unit cube.")
+          "float: the length in the metric, in the unit of the points.")
       .def_property_readonly(
           "euclidean_length", [](const ClosedWire& w) { return w.wire.euclidean_length; },
-          "float: the Euclidean length, of the model scaled to the unit cube.")
+          "float: the Euclidean length, in the unit of the points.")
       .def_readonly("separates", &ClosedWire::separates,
                     "bool: whether the cut divides the surface into two parts. False if it runs around or through a "
                     "handle.")

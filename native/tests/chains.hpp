@@ -39,8 +39,7 @@ inline std::shared_ptr<const EdgeGraph> plain_graph(const Surface& surface) {
 }
 
 inline double plain_length(const Surface& surface, std::int32_t a, std::int32_t b) {
-  return surface.scale() *
-         (surface.points()[static_cast<std::size_t>(a)] - surface.points()[static_cast<std::size_t>(b)]).norm();
+  return (surface.points()[static_cast<std::size_t>(a)] - surface.points()[static_cast<std::size_t>(b)]).norm();
 }
 
 inline double mean_plain_length(const Surface& surface) {

@@ -16,8 +16,7 @@ int main(int count, char** arguments) try {
   const EmbeddedSurface embedded(context, metric);
   const auto wire = embedded.field(std::stoi(arguments[2])).trace(std::stoi(arguments[3]));
   if (!wire) throw InvalidInput("no path connects the two vertices");
-  const double scale = embedded.surface().scale();
-  std::printf("%.3f long, %.3f in the metric\n", wire->euclidean_length / scale, wire->length / scale);
+  std::printf("%.3f long, %.3f in the metric\n", wire->euclidean_length, wire->length);
   write_lines("wire.obj", {wire->points});
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -120,5 +120,5 @@ def test_a_nearer_seed_counts_beside_one_in_the_same_face() -> None:
         for method in ("exact", "heat")
     )
     side = np.linalg.norm(points[triangles[face][0]] - points[corner])
-    assert exact.distance(face, near_corner) < 0.1 * side * surface.scale
-    assert heat.distance(face, near_corner) < 0.2 * side * surface.scale
+    assert exact.distance(face, near_corner) < 0.1 * side
+    assert heat.distance(face, near_corner) < 0.2 * side

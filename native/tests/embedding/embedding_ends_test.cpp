@@ -68,7 +68,7 @@ std::optional<std::size_t> added_by_papers_scheme(const Surface& surface, const 
   std::vector<Vector> points;
   std::vector<TensorAt> tensors;
   for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
-    points.emplace_back(surface.points()[v] * surface.scale());
+    points.emplace_back(surface.points()[v]);
     tensors.push_back({metric.normals[v], metric.tensors[v]});
   }
   std::vector<Triangle> faces = surface.triangles();

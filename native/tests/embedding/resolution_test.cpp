@@ -147,7 +147,7 @@ ByHand by_hand(const Surface& surface, const Metric& metric, const Embedding& em
   Eigen::Matrix3d rows;
   Eigen::Vector3d squares;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector e = (embedding.points[at(t[(i + 1) % 3])] - embedding.points[at(t[i])]) * surface.scale();
+    const Vector e = embedding.points[at(t[(i + 1) % 3])] - embedding.points[at(t[i])];
     const auto row = static_cast<Eigen::Index>(i);
     rows.row(row) << e.x() * e.x(), 2 * e.x() * e.y(), e.y() * e.y();
     squares[row] = std::pow(embedding.mesh.lengths[3 * f + i], 2);
@@ -162,7 +162,7 @@ ByHand by_hand(const Surface& surface, const Metric& metric, const Embedding& em
     mean += form / 3;
   }
   const Vector &a = embedding.points[at(t[0])], &b = embedding.points[at(t[1])], &c = embedding.points[at(t[2])];
-  const double area = embeddings::area(a, b, c) * surface.scale() * surface.scale() * std::sqrt(g.determinant());
+  const double area = embeddings::area(a, b, c) * std::sqrt(g.determinant());
   result.score = largest_log(g, mean) * std::sqrt(area) / embedding.mean_edge_length;
   return result;
 }

@@ -360,14 +360,14 @@ TEST(IntegratedLength, IsTheIntegralOfANormWhoseSquareIsLinear) {
   EXPECT_DOUBLE_EQ(integrated_length(0.7, 0.7), 0.7);
 }
 
-TEST(EdgeLength, IsOfTheModelInTheUnitCubeAndTheSameBothWays) {
+TEST(EdgeLength, IsInTheCallersUnitAndTheSameBothWays) {
   shapes::Mesh mesh = shapes::grid(4);
   for (Vector& p : mesh.points) p *= 8;
   const Surface surface = mesh.surface();
   const Patch patch = rising();
-  const Metric metric = feature_metric(surface, patch.curvature, Follow::kMin, {.parameter = 1});
+  const Metric metric = feature_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 1});
   // Vertices 0 and 1 are a quarter of the square apart, across the direction to follow; l1 there is 2 and 3.
-  EXPECT_NEAR(edge_length(surface, metric, 0, 1), integrated_length(std::sqrt(2.0), std::sqrt(3.0)) / 4, 1e-15);
+  EXPECT_NEAR(edge_length(surface, metric, 0, 1), integrated_length(std::sqrt(2.0), std::sqrt(3.0)) * 2, 1e-15);
   EXPECT_EQ(edge_length(surface, metric, 0, 6), edge_length(surface, metric, 6, 0));
 }
 

@@ -42,7 +42,7 @@ Embedding as_it_is(const Surface& surface) {
     out.mesh.triangles.push_back({vertex(0), vertex(1), vertex(2)});
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [a, b] = std::minmax({vertex(i), vertex(i + 1)});
-      out.mesh.lengths.push_back(surface.scale() * (out.points[index(a)] - out.points[index(b)]).norm());
+      out.mesh.lengths.push_back((out.points[index(a)] - out.points[index(b)]).norm());
     }
   }
   return out;
@@ -107,10 +107,9 @@ Vector on_page(double angle, double x, double z) { return {x * std::cos(angle), 
 TEST(ComplexWires, AWireCrossesTheSpineOfABookStraight) {
   const Mesh mesh = book(8);
   const Solved solved(mesh);
-  const double scale = solved.surface.scale();
   const std::int32_t from = vertex_at(mesh, on_page(0, 0.5, 0)), to = vertex_at(mesh, on_page(2, 0.75, 1));
   const Wire wire = trace_wire(solved.surface, solved.embedding, solved.solver.solve(from), to).value();
-  EXPECT_NEAR(wire.length, scale * std::hypot(1.25, 1.0), 1e-12);
+  EXPECT_NEAR(wire.length, std::hypot(1.25, 1.0), 1e-12);
   EXPECT_NEAR(wire.euclidean_length, wire.length, 1e-12);
   // It crosses the spine once, at the height of a straight line.
   const auto on_spine = [](const Vector& p) { return std::hypot(p.x(), p.y()) < 1e-9; };
@@ -148,7 +147,7 @@ TEST(ComplexWires, APointOnTheSpineIsReachedFromEachPage) {
       ASSERT_TRUE(found);
       for (const double angle : {0.0, 2.0, 4.0}) {
         const Vector place = on_page(angle, 0.5, 0.25);
-        const double expected = solved.surface.scale() * (0.25 * a + 0.75 * b - place).norm();
+        const double expected = (0.25 * a + 0.75 * b - place).norm();
         EXPECT_NEAR(solved.solver.solve(vertex_at(mesh, place)).distance(*found), expected, 1e-12);
       }
     }

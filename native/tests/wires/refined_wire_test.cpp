@@ -44,7 +44,7 @@ double integrated(const Surface& surface, const Metric& metric, const Wire& wire
   double length = 0.0;
   for (std::size_t i = 0; i < wire.faces.size(); ++i) {
     const Triangle& corners = surface.triangles()[at(wire.faces[i])];
-    const Vector step = surface.scale() * (wire.points[i + 1] - wire.points[i]) / kSamples;
+    const Vector step = (wire.points[i + 1] - wire.points[i]) / kSamples;
     for (int k = 0; k < kSamples; ++k) {
       const double t = (k + 0.5) / kSamples;
       const Vector p = (1 - t) * wire.points[i] + t * wire.points[i + 1];

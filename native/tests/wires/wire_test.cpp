@@ -134,7 +134,7 @@ TEST(MapWire, LeavesOutPointsOnAStraightLineInOneFace) {
   EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{0, 1}));
   EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0}));
   EXPECT_EQ(wire.length, 2);
-  EXPECT_DOUBLE_EQ(wire.euclidean_length, 1);  // the model is 2 wide
+  EXPECT_DOUBLE_EQ(wire.euclidean_length, 2);
   EXPECT_EQ(wire.from, 0);
   EXPECT_EQ(wire.to, 1);
 }
@@ -147,7 +147,7 @@ TEST(MapWire, KeepsTurnsInsideAFace) {
   EXPECT_EQ(wire.points[1], Vector(1, 0.25, 0));
   EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{0, -1, 1}));
   EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0, 0}));
-  EXPECT_NEAR(wire.euclidean_length, std::hypot(1, 0.25), 1e-15);
+  EXPECT_NEAR(wire.euclidean_length, 2 * std::hypot(1, 0.25), 1e-15);
 }
 
 TEST(MapWire, LeavesOutPointsThatAreOne) {
@@ -273,7 +273,7 @@ TEST(TraceWire, LiesOnTheFacesItNamesAndIsAsLongAsTheDistance) {
         }
         length += (wire.points[i + 1] - wire.points[i]).norm();
       }
-      EXPECT_NEAR(wire.euclidean_length, length * surface.scale(), 1e-12);
+      EXPECT_NEAR(wire.euclidean_length, length, 1e-12);
       for (std::size_t i = 0; i < wire.points.size(); ++i) {
         if (wire.vertices[i] < 0) continue;
         EXPECT_EQ(wire.points[i], surface.points()[index(wire.vertices[i])]);
@@ -284,15 +284,14 @@ TEST(TraceWire, LiesOnTheFacesItNamesAndIsAsLongAsTheDistance) {
 }
 
 /// A wire through the given points of a flat grid, of which the ends are vertices.
-Wire polyline(const Surface& surface, std::int32_t from, std::vector<Vector> points, std::int32_t to,
-              std::vector<std::int32_t> faces) {
+Wire polyline(std::int32_t from, std::vector<Vector> points, std::int32_t to, std::vector<std::int32_t> faces) {
   Wire wire{.from = from, .to = to, .points = std::move(points), .vertices = {}, .faces = std::move(faces)};
   wire.vertices.assign(wire.points.size(), -1);
   wire.vertices.front() = from;
   wire.vertices.back() = to;
   wire.euclidean_length = 0;
   for (std::size_t i = 1; i < wire.points.size(); ++i) {
-    wire.euclidean_length += (wire.points[i] - wire.points[i - 1]).norm() * surface.scale();
+    wire.euclidean_length += (wire.points[i] - wire.points[i - 1]).norm();
   }
   return wire;
 }
@@ -408,7 +407,7 @@ TEST(SnapToEdges, WidensTheBandWhereItDoesNotConnectTheEnds) {
   ring.points.emplace_back(4, 4, 0);
   ring.edges.insert(ring.edges.end(), {{2, 8}, {8, 6}});  // round about, without a face
   const Surface surface = ring.surface();
-  const Wire wire = polyline(surface, 0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
+  const Wire wire = polyline(0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
   const auto path = snap_to_edges(surface, SnapGraph(surface), wire);
   expect_chain(surface, path, 0, 4);
   EXPECT_NE(std::find(path.begin(), path.end(), 8), path.end());
@@ -416,7 +415,7 @@ TEST(SnapToEdges, WidensTheBandWhereItDoesNotConnectTheEnds) {
 
 TEST(SnapToEdges, IsEmptyWhereNoPathOfEdgesLeads) {
   const Surface surface = Ring().surface();
-  const Wire wire = polyline(surface, 0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
+  const Wire wire = polyline(0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
   EXPECT_TRUE(snap_to_edges(surface, SnapGraph(surface), wire).empty());
 }
 
@@ -438,7 +437,7 @@ TEST(SnapToEdges, StaysOnTheSheetOfTheWire) {
 TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
   const Surface surface = shapes::grid(2).surface();
   const SnapGraph graph(surface);
-  const Wire wire = polyline(surface, 0, {{0, 0, 0}, {0.5, 0, 0}}, 1, {0});
+  const Wire wire = polyline(0, {{0, 0, 0}, {0.5, 0, 0}}, 1, {0});
   EXPECT_EQ(snap_to_edges(surface, graph, wire), (std::vector<std::int32_t>{0, 1}));
   for (const auto& spoil : std::vector<void (*)(Wire&)>{
            [](Wire& w) { w.from = 9; }, [](Wire& w) { w.to = -1; }, [](Wire& w) { w.faces[0] = 8; },

@@ -18,6 +18,7 @@
 #include "metric/scribble_points.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "surface/exact_unit.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
@@ -133,7 +134,8 @@ void EdgeGraph::follow(const Surface& surface, const Metric& metric, const Scrib
   for (const std::vector<std::int32_t>& chain : StrokeChains(surface, *adjacency_, scribble).find()) {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const std::int32_t a = chain[i], b = chain[i + 1], e = find(a, b);
-      const double straight = surface.scale() * (surface.points()[b] - surface.points()[a]).norm();
+      const double unit = exact_unit(surface);
+      const double straight = (unit * (surface.points()[b] - surface.points()[a])).norm() / unit;
       const double length = scribble.attracts ? straight / std::sqrt(scribble.eta) : edge_length(surface, metric, a, b);
       lengths_[e] = lengths_[twin(e)] = length;
       drawn_[e] = drawn_[twin(e)] = scribble.attracts;

@@ -67,6 +67,7 @@ EmbeddingInput::EmbeddingInput(const Surface& on, const Metric& by, const EmbedO
 BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double progress, EdgeRule rule)
     : surface(input.surface),
       metric(input.metric),
+      unit_(exact_unit(input.surface)),
       rule_(rule),
       callers_faces_(input.callers_faces),
       vertex_of_fan_(corner_fans(surface).vertices),
@@ -90,7 +91,7 @@ BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double
     }
   }
   measure_all(task, progress);
-  if (input.options.mean_edge_length > 0) mean_edge_length_ = input.options.mean_edge_length;
+  if (input.options.mean_edge_length > 0) mean_edge_length_ = input.options.mean_edge_length * unit_;
 }
 
 // The triangles, before any bisection.
@@ -191,6 +192,7 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Embedding&
       origins(copied(old.source_face, task, 0.0)),
       branches(triangles.size(), 1),
       depths(triangles.size(), 0),
+      unit_(exact_unit(on)),
       vertex_of_fan_(corner_fans(on).vertices),
       fans_(vertex_of_fan_.size()),
       given_faces_(on.face_count()),
@@ -198,7 +200,9 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Embedding&
       new_nodes_(old.points.size() - fans_),
       tensors_(new_nodes_.size()),
       points_(copied(old.points, task, 0.0)),
-      mean_edge_length_(old.mean_edge_length) {}
+      mean_edge_length_(old.mean_edge_length * unit_) {
+  for (double& length : lengths) length *= unit_;
+}
 
 BisectedMesh::MetricNode BisectedMesh::node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m) {
   const double w = normal_weight(m);
@@ -262,7 +266,7 @@ double BisectedMesh::norm_in_middle(std::int32_t h, const Vector& e) const {
 
 double BisectedMesh::measure_with_middle(std::int32_t h) const {
   const MetricNode &a = node(tail(h)), &b = node(tip(h));
-  const Vector e = (b.point - a.point) * surface.scale();
+  const Vector e = (b.point - a.point) * unit_;
   const double at_a = a.norm(e), at_b = b.norm(e);
   const double middle = norm_in_middle(h, e);
   const double halves = (integrated_length(at_a, middle) + integrated_length(middle, at_b)) / 2;
@@ -533,7 +537,8 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   Embedding out;
   out.faces_added = faces_added();
   out.faces_embedded = callers_faces_ ? given_faces_ : corner_fans(surface).triangles.size();
-  out.mean_edge_length = mean_edge_length_;
+  const double length = 1.0 / unit_;  // a power of two: no digit changes
+  out.mean_edge_length = mean_edge_length_ * length;
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;
@@ -572,7 +577,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       bool is_listed = false;
       for_each_beyond(h, [&](std::int32_t o) { is_listed = is_listed || o < h || !is_hole(o / 3); });
-      if (!is_listed) mesh.loose_edges.push_back({tail(h), tip(h), lengths[h]});
+      if (!is_listed) mesh.loose_edges.push_back({tail(h), tip(h), lengths[h] * length});
     }
   }
   if (!holes.empty()) remove_triangles(holes);
@@ -581,6 +586,8 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   mesh.twins = std::move(twins);
   mesh.siblings = std::move(siblings);
   mesh.lengths = std::move(lengths);
+  for (double& of_edge : mesh.lengths) of_edge *= length;
+  for (double& of_face : mesh.areas) of_face *= length * length;
   out.source_face = std::move(origins);
   out.points = std::move(points_);
   mesh.loose_edges.insert(mesh.loose_edges.end(), merged_.begin(), merged_.end());

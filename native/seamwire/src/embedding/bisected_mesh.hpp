@@ -17,6 +17,7 @@
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire::detail {
 
@@ -68,6 +69,8 @@ enum class EdgeRule {
 /// A surface's triangles, which are bisected in place, with the lengths of their edges in a metric. Other parts decide
 /// which triangles to bisect, and in which order (bisection.hpp, length_repair.hpp).
 ///
+/// Lengths are in the unit of exact_unit(), until to_embedding() converts them.
+///
 /// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are the surface's corner
 /// fans, the others midpoints of edges in the order in which they are made. Of the halves of a bisected triangle one
 /// takes its place, the other becomes the last triangle.
@@ -95,8 +98,8 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   double mean_edge_length() const { return mean_edge_length_; }
   /// The form of the ambient norm (metric.hpp) at a vertex.
   const SpaceForm& form(std::int32_t v) const { return node(v).form; }
-  /// A half-edge in the unit cube.
-  Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * surface.scale(); }
+  /// A half-edge.
+  Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * unit_; }
   /// Whether the lengths fulfill the triangle inequality, with some room for rounding; or are those of a triangle in
   /// space that is so thin that rounding leaves no room.
   bool is_valid(std::int32_t f) const { return has_room(f) || is_as_in_space(f); }
@@ -174,6 +177,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   void remove_triangles(const std::vector<std::int32_t>& sorted);
   std::vector<std::int32_t> unreachable(const IntrinsicMesh& mesh) const;
 
+  double unit_;  // see exact_unit()
   EdgeRule rule_ = EdgeRule::kEnds;
   std::shared_ptr<const CleanedFans> cleaned_;              // null: as the surface has them
   std::optional<std::vector<std::int32_t>> callers_faces_;  // that are embedded, ascending; nullopt: all
@@ -200,7 +204,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
 inline double BisectedMesh::measure(std::int32_t h) const {
   if (rule_ == EdgeRule::kMiddle) return measure_with_middle(h);
   const MetricNode &a = node(tail(h)), &b = node(tip(h));
-  const Vector e = (b.point - a.point) * surface.scale();
+  const Vector e = (b.point - a.point) * unit_;
   return integrated_length(a.norm(e), b.norm(e));
 }
 

@@ -13,6 +13,7 @@
 #include "detail/index.hpp"
 #include "graph/disjoint_sets.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/exact_unit.hpp"
 #include "surface/face_height.hpp"
 #include "surface/half_edge_mesh.hpp"
 
@@ -47,6 +48,7 @@ class DegenerateFaces {
  public:
   explicit DegenerateFaces(const Surface& surface)
       : surface_(surface),
+        unit_(exact_unit(surface)),
         mesh_(half_edge_mesh(surface)),
         origins_(mesh_.n_faces()),
         vertex_of_fan_(corner_fans(surface).vertices),
@@ -151,9 +153,9 @@ class DegenerateFaces {
     return fans;
   }
 
-  // A half-edge in the unit cube.
+  // A half-edge in the unit of exact_unit().
   Vector vector(HalfedgeHandle h) const {
-    return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
+    return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * unit_;
   }
 
   bool is_degenerate(FaceHandle f) const {
@@ -256,7 +258,7 @@ class DegenerateFaces {
     const auto apex = [&](HalfedgeHandle side) {
       return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
     };
-    const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
+    const double flipped = (apex(opposite) - apex(h)).norm() * unit_;
     if (is_degenerate(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
     mesh_.flip(e);
     if (!names_.empty()) names_[e.idx()] = same_edges_.add();
@@ -265,6 +267,7 @@ class DegenerateFaces {
   }
 
   const Surface& surface_;
+  const double unit_;
   HalfEdgeMesh mesh_;
   std::vector<std::int32_t> origins_;
   std::vector<std::int32_t> vertex_of_fan_;

@@ -17,6 +17,7 @@
 #include "embedding/length_repair.hpp"
 #include "metric/metric_check.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/exact_unit.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire {
@@ -42,10 +43,11 @@ bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_
   Triangle corners = corner_fans(surface).triangles[face];
   for (std::int32_t& v : corners) v = corner_fans(surface).vertices[v];
   const auto [a, b, c] = corners;
-  const std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
-                           edge_length(surface, metric, c, a)};
+  const double unit = exact_unit(surface);
+  const std::array lengths{unit * edge_length(surface, metric, a, b), unit * edge_length(surface, metric, b, c),
+                           unit * edge_length(surface, metric, c, a)};
   const auto side = [&](std::int32_t from, std::int32_t to) {
-    return Vector((surface.points()[to] - surface.points()[from]) * surface.scale());
+    return Vector((surface.points()[to] - surface.points()[from]) * unit);
   };
   return has_valid_lengths(lengths.data()) || are_lengths_of(lengths.data(), {side(a, b), side(b, c), side(c, a)});
 }
@@ -246,7 +248,7 @@ std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& me
     const std::int32_t face = corner_fans(surface).faces[f];
     const auto& [a, b, c] = surface.triangles()[face];
     const auto side = [&](std::int32_t from, std::int32_t to) {
-      return Vector((surface.points()[to] - surface.points()[from]) * surface.scale());
+      return Vector((surface.points()[to] - surface.points()[from]) * exact_unit(surface));
     };
     if (!has_area(side(a, b), side(b, c), side(c, a)) ||
         !is_valid_as_given(surface, metric, static_cast<std::int32_t>(f))) {

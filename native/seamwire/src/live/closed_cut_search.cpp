@@ -58,7 +58,7 @@ std::vector<WirePiece> cut_in_pieces(const Surface& surface, const Wire& wire, s
   const auto end_piece = [&](std::int32_t to, double at, const SurfacePoint& end) {
     piece.to = to;
     piece.length = whole > 0 ? wire.length * (at - begin) / whole : 0.0;
-    piece.euclidean_length = (at - begin) * surface.scale();
+    piece.euclidean_length = at - begin;
     begin = at;
     pieces.push_back({std::exchange(piece, Wire{.from = to, .points = {}, .vertices = {}, .faces = {}}), end});
   };

@@ -340,7 +340,7 @@ EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32
   EdgeChain way{.vertices = seamwire::extend_straight(*adjacency, edge, stops), .length = 0.0};
   const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[v]; };
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
-    way.length += surface->scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
+    way.length += (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
   }
   return way;
 }

@@ -7,6 +7,7 @@
 #include "context/interactive_embedding.hpp"
 #include "embedding/bisected_mesh.hpp"
 #include "metric/scribble_points.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -35,7 +36,7 @@ bool is_scribbled(const Surface& surface, const std::vector<Scribble>& scribbles
 /// Embedding::mean_edge_length of a metric.
 double mean_edge_length(const Surface& surface, const Metric& metric, const Task& task) {
   const EmbedOptions options{.max_error = 0};
-  return BisectedMesh(EmbeddingInput(surface, metric, options), task, 0.0).mean_edge_length();
+  return BisectedMesh(EmbeddingInput(surface, metric, options), task, 0.0).mean_edge_length() / exact_unit(surface);
 }
 
 }  // namespace

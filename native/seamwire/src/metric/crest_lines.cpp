@@ -506,17 +506,22 @@ CrestLines ordered(std::vector<Line> lines) {
 CrestLines crest_lines(const Surface& surface, const Curvature& curvature, const CrestLineOptions& options,
                        const Task& task) {
   check(surface, curvature, options);
+  Curvature in_cube = curvature;  // of the model scaled to the unit cube
+  for (double& k : in_cube.k1) k /= surface.scale();
+  for (double& k : in_cube.k2) k /= surface.scale();
   const Faces faces(surface);
-  const Extremalities derivatives = extremalities(faces, curvature, task);
+  const Extremalities derivatives = extremalities(faces, in_cube, task);
   std::vector<Line> lines;
   double begin = 0.4;
   for (const double sign : {1.0, -1.0}) {
-    const Greatest sheet = greatest(curvature, derivatives, sign);
-    Tracer(surface, faces, curvature, options, sheet)
+    const Greatest sheet = greatest(in_cube, derivatives, sign);
+    Tracer(surface, faces, in_cube, options, sheet)
         .trace(Poll(task, begin, begin + 0.3, faces.count(), Poll::kFewSteps), lines);
     begin += 0.3;
   }
-  return ordered(std::move(lines));
+  CrestLines out = ordered(std::move(lines));
+  for (double& k : out.curvatures) k *= surface.scale();
+  return out;
 }
 
 }  // namespace seamwire

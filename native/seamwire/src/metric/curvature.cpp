@@ -456,7 +456,10 @@ Curvature principal_curvatures(const Surface& surface, const Task& task) {
     const Form form{.mean = inverse * sum.form.mean,
                     .difference = inverse * sum.form.difference,
                     .mixed = inverse * sum.form.mixed};
-    if (std::isfinite(form.mean + form.difference + form.mixed)) decompose(frame, form, vertex, curvature);
+    if (!std::isfinite(form.mean + form.difference + form.mixed)) continue;
+    decompose(frame, form, vertex, curvature);
+    curvature.k1[vertex] *= surface.scale();  // the fits are of the unit cube
+    curvature.k2[vertex] *= surface.scale();
   }
   return curvature;
 }

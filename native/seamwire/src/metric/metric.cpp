@@ -12,6 +12,7 @@
 #include "detail/text.hpp"
 #include "metric/metric_check.hpp"
 #include "metric/tangent_frame.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire {
 
@@ -63,7 +64,8 @@ double percentile(std::vector<double> values, double percent) {
   return *below + fraction * (above - *below);
 }
 
-// Magnitudes of the curvatures with s = |k1| - |k2| clamped, and the largest of each; 0 at vertices without a normal.
+// Magnitudes of the curvatures of the model scaled to the unit cube, with s = |k1| - |k2| clamped, and the largest of
+// each; 0 at vertices without a normal.
 struct Features {
   std::vector<double> s, k2;
   double largest_s = 0, largest_k1 = 0;
@@ -71,7 +73,8 @@ struct Features {
   double k1(std::size_t v) const { return k2[v] + s[v]; }
 };
 
-Features features(const Curvature& curvature, const Strength& strength, const Task& task) {
+Features features(const Surface& surface, const Curvature& curvature, const Strength& strength, const Task& task) {
+  const double scale = surface.scale();
   const std::size_t n = curvature.k1.size();
   Features out{.s = std::vector<double>(n, 0.0), .k2 = std::vector<double>(n, 0.0)};
   std::vector<double> used;
@@ -79,8 +82,8 @@ Features features(const Curvature& curvature, const Strength& strength, const Ta
   for (std::size_t v = 0; v < n; ++v) {
     reading.at(v);
     if (!has_normal(curvature, v)) continue;
-    out.k2[v] = std::abs(curvature.k2[v]);
-    out.s[v] = std::max(0.0, std::abs(curvature.k1[v]) - out.k2[v]);
+    out.k2[v] = std::abs(curvature.k2[v]) / scale;
+    out.s[v] = std::max(0.0, std::abs(curvature.k1[v]) / scale - out.k2[v]);
     if (strength.clamp_percentile) used.push_back(out.s[v]);
   }
   const double limit = used.empty() ? kInfinity : percentile(std::move(used), *strength.clamp_percentile);
@@ -207,7 +210,7 @@ Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow
                       const Task& task) {
   check_curvature(surface, curvature, task);
   check_strength(strength, 0);
-  const Features f = features(curvature, strength, task);
+  const Features f = features(surface, curvature, strength, task);
   const bool featureless = f.largest_s <= kNoDifference * std::max(1.0, f.largest_k1);
   const double gamma = strength.parameter ? *strength.parameter
                        : featureless      ? 0.0
@@ -230,7 +233,7 @@ Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature
                               const Strength& strength, const Task& task) {
   check_curvature(surface, curvature, task);
   check_strength(strength, 0);
-  const Features f = features(curvature, strength, task);
+  const Features f = features(surface, curvature, strength, task);
   double beta = 0;
   if (strength.parameter) {
     beta = *strength.parameter;
@@ -263,7 +266,7 @@ Metric concave_metric(const Surface& surface, const Curvature& curvature, double
     return 1 / (1 + strength * (1 / measured - 1));
   };
   return aligned_metric(curvature, Follow::kMin, task, [&](std::size_t v) {
-    const double k1 = curvature.k1[v], k2 = curvature.k2[v];
+    const double k1 = curvature.k1[v] / surface.scale(), k2 = curvature.k2[v] / surface.scale();
     const double s = std::max(0.0, std::abs(k1) - std::abs(k2)) * (k1 > 0 ? 0.5 : 1.0);
     const double l1 = 1 + kCreaseGamma * strength * s, c1 = shortened(k1), c2 = shortened(k2);
     return Eigenvalues{l1 * c2 * c2, c1 * c1 / l1};
@@ -334,9 +337,11 @@ double integrated_length(double norm_at_start, double norm_at_end) {
 
 double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b) {
   const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-  const Vector e = (surface.points()[j] - surface.points()[i]) * surface.scale();
+  const double unit = detail::exact_unit(surface);
+  const Vector e = (surface.points()[j] - surface.points()[i]) * unit;
   return integrated_length(ambient_norm({metric.normals[i], metric.tensors[i]}, e),
-                           ambient_norm({metric.normals[j], metric.tensors[j]}, e));
+                           ambient_norm({metric.normals[j], metric.tensors[j]}, e)) /
+         unit;
 }
 
 }  // namespace seamwire

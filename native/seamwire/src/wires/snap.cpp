@@ -188,7 +188,7 @@ class BandSearch {
       : surface_(surface),
         polyline_(wire.points),
         // Edges along the wire are for free, all but this: it decides among them by length.
-        per_length_(1e-6 * wire.euclidean_length / surface.scale()) {
+        per_length_(1e-6 * wire.euclidean_length) {
     std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // (vertex, directed edge that leaves it)
     pairs.reserve(2 * edges.size());
     heads_.reserve(2 * edges.size());

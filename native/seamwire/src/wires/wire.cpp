@@ -111,7 +111,7 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
   const double unit = exact_unit(surface);
   wire.euclidean_length = 0.0;
   for (std::size_t i = 1; i < wire.points.size(); ++i) {
-    wire.euclidean_length += (unit * (wire.points[i] - wire.points[i - 1])).norm() * (surface.scale() / unit);
+    wire.euclidean_length += (unit * (wire.points[i] - wire.points[i - 1])).norm() / unit;
   }
   return wire;
 }

@@ -20,7 +20,7 @@ namespace seamwire {
 /// A chain of real edges. It repeats no vertex, except that a chain from a forward seed may end where it began.
 struct EdgeChain {
   std::vector<std::int32_t> vertices;  ///< in order, including picked edges; empty if there is no chain
-  /// The cost of the chain: metric length of the model scaled to the unit cube, plus turning.
+  /// The cost of the chain: its length in the metric, in the caller's unit, plus turning.
   double length = std::numeric_limits<double>::infinity();
 };
 

@@ -75,7 +75,7 @@ struct LiveCandidate {
   /// chain to which the wire snaps. If the wire ends inside a face, the chain ends at the corner with the largest
   /// barycentric coordinate.
   std::vector<std::int32_t> vertices;
-  /// In its metric, of the model scaled to the unit cube.
+  /// In its metric, in the caller's unit.
   double length = std::numeric_limits<double>::infinity();
   /// Whether it is the shortest wire along edges, or in the embedding of the whole surface. True if it is final.
   bool solved = false;
@@ -118,7 +118,7 @@ struct LiveClosedWire {
   bool separates = true;  ///< as in ClosedWire
   /// As in ClosedWire. A bent cut keeps the value of the original cut.
   double turn = 0.0;
-  /// In its metric, of the model scaled to the unit cube.
+  /// In its metric, in the caller's unit.
   double length = std::numeric_limits<double>::infinity();
   /// Identifies the cut for LiveWire::bent_wire(). Its metric is an index into LiveMetrics::cuts. It may change until
   /// the answer is final.
@@ -275,7 +275,7 @@ class SEAMWIRE_API LiveWire {
   ///
   /// \param edge the last edge of the chain, from edge[0] to edge[1]
   /// \param stops vertices where the extension ends
-  /// \returns the extension, with its length in space, of the model scaled to the unit cube. It has no vertices until
+  /// \returns the extension, with its length in space, in the caller's unit. It has no vertices until
   ///   the edge adjacency is computed.
   /// \throws InvalidInput if there is no such edge, or wires run across the surface
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;

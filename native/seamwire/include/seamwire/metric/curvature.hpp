@@ -9,10 +9,10 @@
 
 namespace seamwire {
 
-/// Principal curvatures at the caller's vertices, of the model scaled to the unit cube. The unit is 1 / side of the
-/// cube.
+/// Principal curvatures at the caller's vertices, in 1 / unit of the caller's coordinates.
 ///
-/// Values are never infinite or NaN. Triangles lower than 2^-22 of the cube (SurfaceReport::low_faces) are ignored. A
+/// Values are never infinite or NaN. Triangles lower than 2^-22 of the longest side of the box around the surface
+/// (SurfaceReport::low_faces) are ignored. A
 /// vertex without other triangles has curvature 0. Its normal is zero if none of its triangles has an area. If a vertex
 /// has several corner fans, the first fan decides which side is up. Fans that face the other way count turned over.
 /// Each fan is fitted with its own normals.
@@ -51,7 +51,7 @@ SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& 
 ///
 /// \param surface the surface
 /// \param curvature curvatures at its vertices
-/// \param radius finite, above 0, of the model scaled to the unit cube
+/// \param radius as a share of the longest side of the box around the surface, such as 0.01; finite, above 0
 /// \returns the averaged curvatures
 /// \throws InvalidInput if the curvatures differ from the surface in size, or the radius is not positive and finite
 SEAMWIRE_API Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius,

@@ -18,7 +18,8 @@ inline constexpr double kLargestEigenvalue = 1e150;
 
 /// An anisotropic metric: a tensor on the tangent plane at each of the caller's vertices.
 ///
-/// Coordinates are those of the model scaled to the unit cube. Lengths scale by the square roots of the eigenvalues.
+/// A tangent vector x has the length sqrt(x^T M x), in the unit of x. Lengths scale by the square roots of the
+/// eigenvalues.
 ///
 /// \see Zhuang et al. 2014, Section 2.1, eq. 1
 struct Metric {
@@ -193,7 +194,7 @@ SEAMWIRE_API double integrated_length(double norm_at_start, double norm_at_end);
 /// \param metric a metric of its vertices
 /// \param a a vertex of the surface, not checked
 /// \param b another vertex of the surface, not checked
-/// \returns the length, of the model scaled to the unit cube; exactly the same if `a` and `b` are swapped
+/// \returns the length, in the caller's unit; exactly the same if `a` and `b` are swapped
 SEAMWIRE_API double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b);
 
 }  // namespace seamwire

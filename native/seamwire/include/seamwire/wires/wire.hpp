@@ -23,8 +23,8 @@ struct Wire {
   std::vector<Vector> points;          ///< in the caller's coordinates; empty if `to` is unreachable
   std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex, -1 if the point is not a vertex
   std::vector<std::int32_t> faces;  ///< per segment: the caller's face that it lies in; -1 along an edge without a face
-  double length = std::numeric_limits<double>::infinity();  ///< in the metric, of the model scaled to the unit cube
-  /// In space, of the model scaled to the unit cube.
+  double length = std::numeric_limits<double>::infinity();  ///< in the metric, in the caller's unit
+  /// In space, in the caller's unit.
   double euclidean_length = std::numeric_limits<double>::infinity();
 };
 
