@@ -10,10 +10,11 @@ import pytest
 from scene import ADDON
 
 # An extension is enabled without its wheels: Blender would remove them from a folder that the Blenders of other tests share.
+_ARGUMENTS = ", refresh_handled=True" if ADDON.startswith("bl_ext.") else ""
 _ENABLE = f"""
 import addon_utils
 def enable(addon):
-    assert addon_utils.enable(addon, **({{"refresh_handled": True}} if {ADDON.startswith("bl_ext.")} else {{}})) is not None
+    assert addon_utils.enable(addon{_ARGUMENTS}) is not None
 """
 
 

@@ -285,7 +285,7 @@ class HeatScale:
             (1.0, f"{_text(self.high)}{more}"),
         )
         titles = {
-            "STRENGTH": ("Feature strength s",),
+            "STRENGTH": ("Feature strength",),
             "CONCAVITY": ("Curvature", "Concave: purple, convex: orange"),
             "DISTANCE": ("Distance in the metric",),
         }

@@ -15,7 +15,6 @@ import sys
 import tempfile
 import time
 import traceback
-import zipfile
 from contextlib import ExitStack, contextmanager
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -84,27 +83,28 @@ def _kilobytes(of: str) -> int:
 def enable_addons(folder: str | None) -> None:
     """Enable Seamwire and Seamwire Networks, which are installed or lie in a folder; raises AssetError.
 
-    An extension gets its compiled part from here. Blender would install it in a folder that the user's Blenders share, and removes it there
-    whenever one of them enables an extension without it.
+    Blender would unpack an extension's compiled part into a folder that all of the user's Blenders share, and may remove it while they run.
+    So the batch loads its own copy.
     """
     import addon_utils
 
     from seamwire_batch.assets import AssetError
 
+    def enable(name: str) -> Any:  # noqa: ANN401 - a module
+        return addon_utils.enable(name, **({"refresh_handled": True} if name.startswith("bl_ext.") else {}))
+
     if folder:
         sys.path.insert(0, folder)
     found = {}
     for addon, title in (("seamwire", "Seamwire"), ("seamwire_networks", "Seamwire Networks")):
-        installed = [module for module in addon_utils.modules() if module.__name__.split(".")[-1] == addon]
-        extension = next((module for module in installed if module.__name__.startswith("bl_ext.")), None)
-        if folder or extension is None:
-            names = [addon] if folder else [module.__name__ for module in installed]
-            found[addon] = next(filter(None, map(addon_utils.enable, names)), None)
-        else:
-            _load_wheels(Path(extension.__file__).parent / "wheels")
-            found[addon] = addon_utils.enable(extension.__name__, refresh_handled=True)  # Blender installs nothing
+        installed = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == addon]
+        found[addon] = next(filter(None, map(enable, [addon] if folder else installed)), None)
         if found[addon] is None:
             raise AssetError(f"The add-on {title} is not installed in this Blender: name its folder with --addon")
+    native = importlib.import_module(f"{found['seamwire'].__name__}.core.base.native")
+    if native.IS_EXTENSION:
+        with tempfile.TemporaryDirectory() as unpacked:
+            native.load_unpacked(Path(unpacked))
     for addon, module in found.items():
         # By one name, however it is installed.
         name = module.__name__
@@ -112,17 +112,6 @@ def enable_addons(folder: str | None) -> None:
             importlib.import_module(part.name)
         for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
             sys.modules[f"{addon}{known.removeprefix(name)}"] = sys.modules[known]
-
-
-def _load_wheels(folder: Path) -> None:
-    """Load the modules of the wheels in an extension's folder that are for this Python."""
-    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    for wheel in folder.glob(f"*-{python}-*.whl"):
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as unpacked, zipfile.ZipFile(wheel) as archive:
-            archive.extractall(unpacked)
-            sys.path.insert(0, unpacked)
-            importlib.import_module(wheel.name.split("-")[0])
-            sys.path.remove(unpacked)
 
 
 def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa: ANN401 - bpy.ops has no type

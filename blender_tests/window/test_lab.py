@@ -197,10 +197,10 @@ def test_distances_are_from_the_seed_of_the_chain_and_from_a_selected_vertex_bef
         segments = views().fields.isolines.segments
         ends = np.linalg.norm(segments.reshape(-1, 3) - (0.0, 0.0, 0.0), axis=1)
         assert ends.max() < 1.5
-        # A plane has no features: paths are straight, and as long as they are in the unit cube.
+        # A plane has no features: paths are straight.
         paths = views().fields.paths
         lasts = paths.points[paths.starts[1:] - 1]
-        assert paths.lengths == pytest.approx(np.linalg.norm(lasts, axis=1) / 2.0, abs=1e-6)
+        assert paths.lengths == pytest.approx(np.linalg.norm(lasts, axis=1), abs=1e-6)
         desk.ui.click(desk.at(44))
         desk.ui.wait_until(lambda: shown() and views().fields.request.source == 44)
         desk.ui.click(desk.at(44), button="RIGHTMOUSE")

@@ -86,7 +86,9 @@ def embedding(studio: Studio) -> Image.Image:
         above = 0.001 * model.size * model.curvature.normals[model.triangles[faces]].mean(axis=1)
         stage.segments(pieces + above[:, None], INK, 0.0016, sides=3)
         stage.line(field.trace(end).points, SEED, 0.008)
-        panels.append(Panel(studio.render(stage), title, Bar("distance", "0", f"{farthest:.2f}", length_colors)))
+        panels.append(
+            Panel(studio.render(stage), title, Bar("distance", "0", f"{farthest / model.size:.2f}", length_colors))
+        )
     return sheet([panels])
 
 

@@ -154,7 +154,8 @@ def feature_strength(studio: Studio) -> Image.Image:
     model = studio.model("armadillo", "suzanne")
     smoothed = studio.core.smoothed_curvatures(model.surface, model.curvature)
     limit = float(np.percentile(model.strength, 97))
-    bend = float(np.percentile(np.abs(smoothed.k1), 97))
+    bends = smoothed.k1 * model.size
+    bend = float(np.percentile(np.abs(bends), 97))
     lines = studio.core.crest_lines(model.surface, smoothed)
     viridis = partial(colors, of=VIRIDIS)
     signed = partial(colors, of=PURPLE_ORANGE)
@@ -164,7 +165,7 @@ def feature_strength(studio: Studio) -> Image.Image:
     studio.add_crests(stage, lines)
     key = Key((("ridge", RIDGE), ("valley", VALLEY)))
     panels.append(Panel(studio.render(stage), "ridges and valleys [YBS05]", key))
-    stage = studio.stage(model, 3, colors=signed(0.5 + 0.5 * smoothed.k1 / bend))
+    stage = studio.stage(model, 3, colors=signed(0.5 + 0.5 * bends / bend))
     panels.append(Panel(studio.render(stage), "larger curvature", Bar("κ₁", f"{-bend:.0f}", f"{bend:.0f}", signed)))
     print(f"   Figure 5: {maxima_and_crests(model, lines)}")
     return sheet([panels])

@@ -145,7 +145,7 @@ class Studio:
         longest = paths.lengths[np.isfinite(paths.lengths)].max()
         stage.segments(pieces, length_colors(lengths / longest), width, sides=6)
         stage.balls(model.points[field.seed], START, 0.016)
-        return Bar("length in the metric", "0", f"{longest:.2f}", length_colors)
+        return Bar("length in the metric", "0", f"{longest / model.size:.2f}", length_colors)
 
     @staticmethod
     def add_ellipses(stage: Stage, model: Model, metric: seamwire_core.Metric) -> None:

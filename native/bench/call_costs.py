@@ -73,9 +73,9 @@ def calls_on(fineness: int) -> Calls:
         "smoothed_curvatures, radius 0.01": lambda: sw.smoothed_curvatures(surface, curvature),
         "feature_metric": lambda: sw.feature_metric(surface, curvature, max_anisotropy=20),
         "apply_scribbles, one stroke": lambda: sw.apply_scribbles(surface, metric, [stroke]),
-        "embed": lambda: sw.embed(surface, metric, max_error=0),
-        "embed, max_error=0.01": lambda: sw.embed(surface, metric, max_error=0.01),
-        "distance_field, the first, with embed": lambda: sw.distance_field(
+        "embed, max_error=0": lambda: sw.embed(surface, metric, max_error=0),
+        "embed": lambda: sw.embed(surface, metric),
+        "distance_field, the first, with embed, max_error=0": lambda: sw.distance_field(
             sw.embed(surface, metric, max_error=0), start
         ),
         "distance_field, further ones": lambda: sw.distance_field(embedding, start),

@@ -12,7 +12,7 @@
 #include "seamwire/surface/surface.hpp"
 
 /// Plain versions of the methods that Section 2.3 of the paper argues against, for comparison. Each gives the distances
-/// from one seed at all vertices, of the model scaled to the unit cube. Distances are infinite at vertices that it does
+/// from one seed at all vertices. Distances are infinite at vertices that it does
 /// not reach.
 namespace seamwire::bench {
 

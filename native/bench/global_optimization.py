@@ -106,7 +106,7 @@ def compared(model: Model, anisotropy: float) -> str:
     lengths = sw.metric_lengths(surface, metric)
     taken, changed = _timed(lambda: optimized(model.triangles, surface.edges, lengths))
     ours_taken, ours = _timed(lambda: sw.embed(surface, metric, max_error=0))
-    plain = model.embed(model.metric("euclidean"), "euclidean")
+    plain = model.embed(model.metric("euclidean"))
     of_edge = {pair: length for pair, length in zip(map(tuple, surface.edges.tolist()), changed.tolist(), strict=True)}
     theirs = plain.with_lengths([of_edge[min(a, b), max(a, b)] for a, b in plain.edges.tolist()])
     ends = model.points[surface.edges]

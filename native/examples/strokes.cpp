@@ -14,11 +14,11 @@ using namespace seamwire;
 int main() {
   auto [points, triangles] = sheet();
   const SurfaceContext context(points, triangles);
+  const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
+  //! [stroke]
   // With a max_error, a stroke would embed the whole surface again.
   const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}),
                                  {.max_error = 0});
-  const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
-  //! [stroke]
   Scribble stroke;
   for (int i = 20; i < 140; i += 10) stroke.vertices.push_back(i * 101 + 50);  // across the bends of the ridge
   for (const std::int32_t v : stroke.vertices) stroke.points.push_back(points[static_cast<std::size_t>(v)]);

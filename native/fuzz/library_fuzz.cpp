@@ -386,8 +386,10 @@ void check_geodesics(const Patience& patience, const Surface& surface) {
 }
 
 void check_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric) {
-  EmbedOptions options{.max_error = 0};
+  EmbedOptions options;
   options.max_faces_added = static_cast<std::size_t>(from.byte()) * 40;
+  options.max_error = from.coin() ? 0.0 : from.share();
+  if (from.coin()) options.max_error = 0.0;  // refined embeddings take longer
   const Embedding embedding = embed(surface, metric, options, patience.task());
   require(embedding.worst_clamp >= 1.0, "a factor is one or more");
   const ExactGeodesics solver(embedding.mesh);

@@ -54,7 +54,7 @@ void bind_curvature(py::module_& module) {
   py::class_<CurvatureObject, Held<CurvatureObject>>(module, "Curvature",
                                                      R"(Principal curvatures at the vertices of a surface.
 
-Their unit is 1 / unit of the points. Vertices without a usable face have
+k1 and k2 are in 1 / unit of the points: 0.5 on a sphere of radius 2. Vertices without a usable face have
 curvature 0.)")
       .def_property_readonly("k1", array(&Curvature::k1), "(n,) float64: the curvature with the larger absolute value.")
       .def_property_readonly("k2", array(&Curvature::k2),
@@ -152,6 +152,9 @@ double find_max_anisotropy(const MetricObject& object) {
   return without_gil([&] { return max_anisotropy(object.metric); });
 }
 
+/// Normals and tensors of a caller may be rounded so much, such as to single precision.
+constexpr double kRounded = 1e-5;
+
 Held<MetricObject> metric_of(const py::object& normals, const py::object& tensors) {
   Metric metric{.normals = points_from(normals, "normals"), .tensors = tensors_from(tensors, "tensors")};
   if (metric.normals.size() != metric.tensors.size()) {
@@ -159,6 +162,18 @@ Held<MetricObject> metric_of(const py::object& normals, const py::object& tensor
                        " tensors, one for each normal, got " + std::to_string(metric.tensors.size()));
   }
   return without_gil([&] {
+    for (std::size_t v = 0; v < metric.size(); ++v) {
+      const Vector& n = metric.normals[v];
+      const auto refuse = [v](const char* what) {
+        throw InvalidInput("the metric at vertex " + std::to_string(v) + what);
+      };
+      if (!(n.isZero(0.0) || std::abs(n.norm() - 1.0) <= kRounded))
+        refuse(": its normal is neither a unit vector nor zero");
+      const Eigen::Matrix3d& tensor = metric.tensors[v];
+      if (!((tensor * n).cwiseAbs().maxCoeff() <= kRounded * tensor.cwiseAbs().maxCoeff())) {
+        refuse(": its tensor does not map the normal to zero");
+      }
+    }
     detail::check_tensors(metric);
     return make_held<MetricObject>(std::move(metric));
   });
@@ -180,8 +195,8 @@ tensors : (n, 3, 3) array_like of float
 Raises
 ------
 ValueError
-    If a shape is wrong, or a tensor is not finite, not symmetric, or has an eigenvalue in the tangent plane that is not
-    positive or above 1e150.
+    If a shape is wrong, a normal is neither a unit vector nor zero, or a tensor is not finite, not symmetric, does not map
+    the normal to zero, or has an eigenvalue in the tangent plane that is not positive or above 1e150.
 
 References
 ----------
@@ -243,7 +258,8 @@ void bind_feature_metric(py::module_& module) {
   define_directed(module, "feature_metric", "gamma", &make_feature_metric,
                   R"(Make the metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
 
-Give gamma or max_anisotropy. Without either, gamma is 0.1.
+Here and in the other metrics, k1, k2 and s are those of `Curvature` times the longest side of the box around the
+surface. Give gamma or max_anisotropy. Without either, gamma is 0.1.
 
 Parameters
 ----------

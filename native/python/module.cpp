@@ -11,7 +11,7 @@ PYBIND11_MODULE(seamwire_core, module) {
 
 The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
-Points, lengths and curvatures are in the caller's unit. Arrays that a result hands out are read-only views of its memory.
+Points and lengths are in the caller's unit, and curvatures in 1 / that unit. Arrays that a result hands out are read-only views of its memory.
 
 Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a
 function of the fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long

@@ -4,7 +4,7 @@
 
 The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
-Points, lengths and curvatures are in the caller's unit. Arrays that a result hands out are read-only views of its memory.
+Points and lengths are in the caller's unit, and curvatures in 1 / that unit. Arrays that a result hands out are read-only views of its memory.
 
 Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a
 function of the fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long
@@ -240,7 +240,7 @@ def triangulate(points: ArrayLike, corners: ArrayLike, sizes: ArrayLike) -> tupl
 class Curvature:
     """Principal curvatures at the vertices of a surface.
 
-    Their unit is 1 / unit of the points. Vertices without a usable face have
+    k1 and k2 are in 1 / unit of the points: 0.5 on a sphere of radius 2. Vertices without a usable face have
     curvature 0.
     """
 
@@ -325,8 +325,8 @@ class Metric:
     Raises
     ------
     ValueError
-        If a shape is wrong, or a tensor is not finite, not symmetric, or has an eigenvalue in the tangent plane that is not
-        positive or above 1e150.
+        If a shape is wrong, a normal is neither a unit vector nor zero, or a tensor is not finite, not symmetric, does not map
+        the normal to zero, or has an eigenvalue in the tangent plane that is not positive or above 1e150.
 
     References
     ----------
@@ -371,7 +371,8 @@ def feature_metric(
 ) -> Metric:
     """Make the metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
 
-    Give gamma or max_anisotropy. Without either, gamma is 0.1.
+    Here and in the other metrics, k1, k2 and s are those of `Curvature` times the longest side of the box around the
+    surface. Give gamma or max_anisotropy. Without either, gamma is 0.1.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
     points, _ = torus()
     made = maker().make(FieldRequest(ALL, strength=20.0, kind="max", source=3))
     assert made.strength.shape == made.concavity.shape == made.distance.shape == (len(points),)
-    # Of the unit cube, which the torus fills: convex outside, k1 is 1 / r everywhere.
+    # Convex outside, k1 is 1 / r everywhere.
     assert made.concavity == pytest.approx(np.full(len(points), 1 / 0.15), rel=0.05)
     assert made.distance[3] == 0.0
     assert made.invalid.before > 0

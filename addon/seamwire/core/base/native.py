@@ -53,14 +53,19 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
                 f"Blender has not installed Seamwire's compiled part, {fitting[0].name}, or has removed it since: "
                 "disable and enable the add-on"
             ) from installed
-        raise _error(folder, wheels, installed, installed) from installed
+        raise _error(folder, wheels, installed) from installed
+    return load_unpacked(folder, wheels, installed)
+
+
+def load_unpacked(folder: Path, wheels: Path = WHEELS, *earlier: ImportError) -> ModuleType:
+    """Return the module, unpacked into a folder. `earlier`: why it could not be imported otherwise. Raises NativeError like `load`."""
     place = _unpacked(folder, wheels)
     sys.path.insert(0, str(place))
     try:
         importlib.invalidate_caches()
         return _import()
     except ImportError as error:
-        raise _error(place, wheels, installed, error) from error
+        raise _error(place, wheels, *earlier, error) from error
     finally:
         sys.path.remove(str(place))
 
@@ -150,11 +155,11 @@ def _is_absent(error: ImportError) -> bool:
     return isinstance(error, ModuleNotFoundError) and error.name == NAME
 
 
-def _error(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> NativeError:
+def _error(folder: Path, wheels: Path, *errors: ImportError) -> NativeError:
     here = f"Python {sys.version_info.major}.{sys.version_info.minor} on {sysconfig.get_platform()}"
     found = sorted(path.name for path in folder.glob(f"{NAME}*") if path.suffix in {".so", ".pyd", ".dll"})
     found += sorted(path.name for path in wheels.glob("*.whl"))
-    for error in (installed, own):
+    for error in errors:
         if not _is_absent(error):
             return NativeError(f"Seamwire's compiled part does not load in this Blender ({here}): {error}")
     if found:

@@ -12,7 +12,7 @@ using namespace detail;
 
 namespace {
 
-/// Of the unit cube, as concave_metric() is best given curvatures.
+/// As a share of the longest side of the box: as concave_metric() is best given curvatures.
 constexpr double kSmoothingRadius = 0.01;
 /// The maximum anisotropy that goes with a strength of 1 of the concave metric.
 constexpr double kAnisotropyOfConcave = 20.0;

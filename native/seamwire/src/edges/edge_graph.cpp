@@ -131,10 +131,10 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
 
 void EdgeGraph::follow(const Surface& surface, const Metric& metric, const Scribble& scribble) {
   if (drawn_.empty()) drawn_.assign(directed_count(), false);
+  const double unit = exact_unit(surface);
   for (const std::vector<std::int32_t>& chain : StrokeChains(surface, *adjacency_, scribble).find()) {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const std::int32_t a = chain[i], b = chain[i + 1], e = find(a, b);
-      const double unit = exact_unit(surface);
       const double straight = (unit * (surface.points()[b] - surface.points()[a])).norm() / unit;
       const double length = scribble.attracts ? straight / std::sqrt(scribble.eta) : edge_length(surface, metric, a, b);
       lengths_[e] = lengths_[twin(e)] = length;

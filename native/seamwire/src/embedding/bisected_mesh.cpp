@@ -537,8 +537,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   Embedding out;
   out.faces_added = faces_added();
   out.faces_embedded = callers_faces_ ? given_faces_ : corner_fans(surface).triangles.size();
-  const double length = 1.0 / unit_;  // a power of two: no digit changes
-  out.mean_edge_length = mean_edge_length_ * length;
+  out.mean_edge_length = mean_edge_length_ / unit_;  // a power of two: no digit changes, here and below
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;
@@ -577,7 +576,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       bool is_listed = false;
       for_each_beyond(h, [&](std::int32_t o) { is_listed = is_listed || o < h || !is_hole(o / 3); });
-      if (!is_listed) mesh.loose_edges.push_back({tail(h), tip(h), lengths[h] * length});
+      if (!is_listed) mesh.loose_edges.push_back({tail(h), tip(h), lengths[h] / unit_});
     }
   }
   if (!holes.empty()) remove_triangles(holes);
@@ -586,8 +585,8 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   mesh.twins = std::move(twins);
   mesh.siblings = std::move(siblings);
   mesh.lengths = std::move(lengths);
-  for (double& of_edge : mesh.lengths) of_edge *= length;
-  for (double& of_face : mesh.areas) of_face *= length * length;
+  for (double& length : mesh.lengths) length /= unit_;
+  for (double& area : mesh.areas) area /= unit_ * unit_;
   out.source_face = std::move(origins);
   out.points = std::move(points_);
   mesh.loose_edges.insert(mesh.loose_edges.end(), merged_.begin(), merged_.end());

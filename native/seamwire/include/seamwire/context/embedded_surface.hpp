@@ -65,7 +65,8 @@ class SEAMWIRE_API EmbeddedSurface {
   ///   far as their sizes tell
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, Embedding embedding);
 
-  /// Embed the surface in a changed metric with re_embed(), which is faster where the metrics agree.
+  /// Embed the surface in a changed metric with re_embed(). With a `max_error` of 0, that is faster where the metrics
+  /// agree.
   ///
   /// \param metric a metric of the surface's vertices, not null
   /// \returns the surface in the changed metric

@@ -123,6 +123,8 @@ SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const
 
 /// Embed a surface in a changed metric, starting from its embedding in the former one.
 ///
+/// This is faster than embed() only if the EmbedOptions::max_error of both is 0.
+///
 /// Only triangles around vertices where the metrics differ are bisected anew, and triangles that these bisections
 /// reach. The result is that of embed(surface, metric, options), except for the numbers of new vertices and triangles
 /// and for Embedding::mean_edge_length, see below.

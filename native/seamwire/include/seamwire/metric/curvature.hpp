@@ -23,9 +23,10 @@ struct SEAMWIRE_API Curvature {
   std::vector<Vector> d2;       ///< direction of k2, orthogonal to d1
   std::vector<Vector> normals;  ///< unit, or zero
 
-  /// Return |k1| - |k2| at each vertex, the strength of a ridge or valley.
+  /// Return |k1| - |k2| at each vertex, the strength of a ridge or valley. Times the longest side of the box around
+  /// the surface, it is s of eq. 5.
   ///
-  /// \see Zhuang et al. 2014, Section 3, s of eq. 5
+  /// \see Zhuang et al. 2014, Section 3
   std::vector<double> difference() const;
 };
 

@@ -61,6 +61,9 @@ SEAMWIRE_API void check_strength(const Strength& strength, double smallest_param
 
 /// Make the paper's metric, with l1 = 1 + gamma s and l2 = 1 / l1.
 ///
+/// Here and in the other metrics, k1, k2 and s are those of Curvature times the longest side of the box around the
+/// surface. So the strength does not depend on the unit.
+///
 /// The parameter is gamma. A maximum anisotropy A means gamma = (A - 1) / max s. It means 0 if max s is only rounding,
 /// as on planes and spheres.
 ///
