@@ -89,7 +89,7 @@ def test_a_metric_of_ones_own_is_that_of_its_tensors(surface: sw.Surface, curvat
         (lambda normals, tensors: (normals, tensors[1:]), "one for each normal"),
         (lambda normals, tensors: (normals, tensors[:, :2]), r"shape \(n, 3, 3\), got shape"),
         (lambda normals, tensors: (normals, -tensors), "at vertex 0"),
-        (lambda normals, tensors: (normals, np.add(tensors, [[0, 0.1, 0], [0, 0, 0], [0, 0, 0]])), "not symmetric"),
+        (lambda normals, tensors: (normals, tensors + 0.1 * np.cross(normals[:, None], np.eye(3))), "not symmetric"),
         (lambda normals, tensors: (normals, tensors * np.nan), "vertex 0"),
         (lambda normals, tensors: (3 * normals, tensors), "neither a unit vector nor zero"),
         (lambda normals, tensors: (normals * np.nan, tensors), "neither a unit vector nor zero"),
