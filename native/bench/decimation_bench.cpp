@@ -4,10 +4,11 @@
 //   decimation_bench [--triangles N] [--repeats N] MESH...
 //
 // Both collapse edges onto one of their ends, in the order of quadric errors (Garland and Heckbert 1997), and refuse to
-// turn a triangle by more than 78 degrees. Prints, for each: the processor time in milliseconds, the median of the
-// repeats; the triangles left; the mean and the largest distance of the mesh's vertices from the simplified one, in
-// thousandths of its diagonal; and on symmetric meshes the
-// share of vertices whose mirror image is a vertex.
+// turn a triangle by more than 78 degrees. Prints for each:
+// - the processor time in milliseconds, the median of the repeats
+// - the triangles left
+// - the mean and the largest distance of the mesh's vertices from the simplified one, in thousandths of its diagonal
+// - on symmetric meshes, the share of vertices whose mirror image is a vertex
 #include "mesh_input.hpp"
 // After OpenMesh's mesh types.
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
