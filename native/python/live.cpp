@@ -262,7 +262,7 @@ scribbles : sequence of Scribble
 Returns
 -------
 (n,) float64 or None
-    s of eq. 5. None while it is being computed.
+    `Curvature.difference`. None while it is being computed.
 )");
   live_wire.def("embeddings", &embeddings, R"(Return summaries of the embeddings across the surface.
 

@@ -64,7 +64,7 @@ curvature 0.)")
       .def_property_readonly("normals", array(&Curvature::normals), "(n, 3) float64: unit normals.")
       .def_property_readonly("difference",
                              array_of<CurvatureObject>([](const CurvatureObject& c) -> auto& { return c.difference; }),
-                             "(n,) float64: s of eq. 5, |k1| - |k2|.")
+                             "(n,) float64: |k1| - |k2|. Times the longest side of the box, it is s of eq. 5.")
       .def("__repr__", &text_of_curvature);
 }
 

@@ -255,7 +255,7 @@ class Curvature:
     normals: NDArray[np.float64]
     """(n, 3) float64: unit normals."""
     difference: NDArray[np.float64]
-    """(n,) float64: s of eq. 5, |k1| - |k2|."""
+    """(n,) float64: |k1| - |k2|. Times the longest side of the box, it is s of eq. 5."""
 
 def principal_curvatures(surface: Surface, progress: Callable[[float], bool | None] | None = None) -> Curvature:
     """Compute the principal curvatures at the vertices of a surface.
@@ -1727,7 +1727,7 @@ class LiveWire:
         Returns
         -------
         (n,) float64 or None
-            s of eq. 5. None while it is being computed.
+            `Curvature.difference`. None while it is being computed.
         """
     def embeddings(self) -> tuple[LiveEmbedding | None, ...]:
         """Return summaries of the embeddings across the surface.

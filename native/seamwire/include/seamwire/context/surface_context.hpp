@@ -66,7 +66,7 @@ class SEAMWIRE_API SurfaceContext {
   std::shared_ptr<const Surface> surface(const Task& = {}) const;
   /// Return the principal_curvatures() of the surface.
   std::shared_ptr<const Curvature> curvature(const Task& = {}) const;
-  /// Return Curvature::difference() of the surface, s of eq. 5.
+  /// Return Curvature::difference() of the surface.
   std::shared_ptr<const std::vector<double>> feature_strength(const Task& = {}) const;
   /// Return the smoothed curvatures (radius 0.01) that the concave metric uses.
   std::shared_ptr<const Curvature> smoothed_curvature(const Task& = {}) const;

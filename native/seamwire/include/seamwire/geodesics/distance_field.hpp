@@ -88,7 +88,7 @@ class SEAMWIRE_API DistanceField {
   /// Return a handle that identifies the mesh. All fields of one DistanceMethod and its copies have the same handle,
   /// and no other field has it.
   std::weak_ptr<const void> mesh_id() const { return solved_->mesh; }
-  /// Return the distance of each vertex, infinite if no path leads there.
+  /// Return the distance of each vertex in the unit of the mesh's lengths, infinite if no path leads there.
   const std::vector<double>& distances() const { return solved_->distances; }
 
   /// Compute the distance of any point.

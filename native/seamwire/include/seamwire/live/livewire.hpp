@@ -295,7 +295,7 @@ class SEAMWIRE_API LiveWire {
   /// \throws InvalidInput if seamwire::fit_chain() rejects an argument, or wires run across the surface
   FittedChain fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin = std::nullopt,
                         std::optional<std::int32_t> end = std::nullopt, const Task& = {}) const;
-  /// Return s of eq. 5 at each vertex, or null if it is not computed yet.
+  /// Return Curvature::difference() of the surface, or null if it is not computed yet.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 
   /// Return a description of each metric's embedding, in the order of the wires.
