@@ -136,7 +136,7 @@ def test_pages_of_the_development_name_what_there_is(page: str) -> None:
     named = re.findall(r"`([^`\s]+)`", (ROOT.parents[1] / f"docs/development/{page}.md").read_text(encoding="utf-8"))
     paths = [name for name in named if re.fullmatch(r"[\w/-]+\.(py|pyi|cpp|hpp|json|md)|[\w-]+(/[\w-]+)+", name)]
     assert [path for path in paths if not any((folder / path).exists() for folder in folders)] == []
-    files = [*named_files(), *native.glob("seamwire*/**/*.?pp")]
+    files = [*named_files(), *native.glob("*/**/*.?pp")]
     code = "\n".join(path.read_text(encoding="utf-8") for path in files)
     words = [match for name in named if name not in paths if (match := re.fullmatch(r"(\w+)(?:(?:\.|::)(\w+))?", name))]
     assert len(paths) > 15

@@ -42,8 +42,8 @@ int main() {
   std::printf("complete up to %g and %g\n", near.distances().radius(), limited.distances().radius());
 
   //! [corridor]
-  CorridorPaths paths(embedded.geodesics(), start);  // needs no distance field
-  const IntrinsicPath path = paths.path(end);        // at least as long as the geodesic
+  CorridorPaths paths(embedded.geodesics(), start);    // needs no distance field
+  const IntrinsicPath path = paths.path(end).value();  // at least as long as the geodesic
   //! [corridor]
   std::printf("length of a path found at once: %g\n", path.length);
 

@@ -325,8 +325,9 @@ class Metric:
     Raises
     ------
     ValueError
-        If a shape is wrong, a normal is neither a unit vector nor zero, or a tensor is not finite, not symmetric, does not map
-        the normal to zero, or has an eigenvalue in the tangent plane that is not positive or above 1e150.
+        If a shape is wrong, or a normal is neither a unit vector nor zero. If a tensor is not finite or
+        not symmetric, or does not map the normal to zero. If an eigenvalue in the tangent plane is
+        not positive, or is above 1e150.
 
     References
     ----------

@@ -325,7 +325,7 @@ TEST(EmbeddingEnds, WithDistancesThatPathsHave) {
   for (std::int32_t v = 0; v < embedding.mesh.vertex_count; ++v) {
     const double distance = field.distances()[at(v)];
     ASSERT_TRUE(std::isfinite(distance));
-    EXPECT_NEAR(field.trace(v).length, distance, 1e-9 * distance);
+    EXPECT_NEAR(field.trace(v)->length, distance, 1e-9 * distance);
   }
 }
 

@@ -33,9 +33,9 @@ class SolvedAlongEdges final : public SolvedField {
     task.check(0.0);
     return distances[index(point.vertex)];
   }
-  IntrinsicPath trace(const SurfacePoint& point, const Task& task) const override {
+  std::optional<IntrinsicPath> trace(const SurfacePoint& point, const Task& task) const override {
     task.check(0.0);
-    if (std::isinf(distances[index(point.vertex)])) return {};
+    if (std::isinf(distances[index(point.vertex)])) return std::nullopt;
     IntrinsicPath path{.points = {{.vertex = point.vertex}}, .faces = {}, .length = distances[index(point.vertex)]};
     for (std::int32_t v = point.vertex; over[index(v)] >= 0;) {
       const std::int32_t h = over[index(v)];
@@ -150,7 +150,7 @@ TEST(DistanceMethod, TheExactOneGivesTheSameBitsThroughTheInterface) {
   const ExactField field = exact.solve(5);
   const DistanceField same = method.solve(5);
   EXPECT_EQ(field.distances(), same.distances());
-  EXPECT_EQ(field.trace(77).length, same.trace(77).length);
+  EXPECT_EQ(field.trace(77)->length, same.trace(77)->length);
   EXPECT_GT(field.counters().windows, 1000U);
   EXPECT_FALSE(field.mesh_id().owner_before(same.mesh_id()) || same.mesh_id().owner_before(field.mesh_id()));
 }

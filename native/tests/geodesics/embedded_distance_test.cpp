@@ -318,7 +318,7 @@ TEST(EmbeddedDistance, IsExactOnTheEmbeddedLengths) {
     EXPECT_LT(largest_error(field.distances(), [&](std::size_t v) { return expected[v]; }), 1e-9);
     for (std::int32_t v = 0; v < embedding.mesh.vertex_count; ++v) {
       const double distance = field.distances()[at(v)];
-      EXPECT_NEAR(field.trace(v).length, distance, 1e-9 * distance);
+      EXPECT_NEAR(field.trace(v)->length, distance, 1e-9 * distance);
     }
   }
   EXPECT_GT(added, 200U);
@@ -450,7 +450,7 @@ TEST(EmbeddedDistance, OnAPlaneOfSliversIsTheStraightLine) {
         std::vector<double> lengths, distances(field.distances());
         distances.resize(surface.vertex_count());
         for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
-          lengths.push_back(field.trace(static_cast<std::int32_t>(v)).length);
+          lengths.push_back(field.trace(static_cast<std::int32_t>(v))->length);
         }
         EXPECT_LT(largest_error(distances, straight), 1e-6) << aspect << ", " << mesh.triangles.size() << " triangles";
         EXPECT_LT(largest_error(lengths, straight), 1e-6) << aspect << ", " << mesh.triangles.size() << " triangles";

@@ -184,7 +184,7 @@ class OnRandomMeshes : public testing::TestWithParam<unsigned> {
         EXPECT_LE(d, longer[index(v)] * (1 + 1e-12)) << "vertex " << v;
         excess += longer[index(v)] / d - 1;
         ++reached;
-        const IntrinsicPath path = field.trace(v);
+        const IntrinsicPath path = field.trace(v).value();
         EXPECT_NEAR(path.length, d, kExact * d) << "vertex " << v;
         EXPECT_NEAR(paths::length_of(mesh, path), d, kExact * d) << "vertex " << v;
       }

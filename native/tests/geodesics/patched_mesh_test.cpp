@@ -83,7 +83,7 @@ void expect_same_distances(const ExactGeodesics& patched, const ExactGeodesics& 
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t v = 0; v < a.size(); ++v) ASSERT_NEAR(a[v], b[v], 1e-12 * (1 + b[v])) << "vertex " << v;
   const auto target = static_cast<std::int32_t>(a.size() / 2);
-  const auto length = [&](const ExactGeodesics& on) { return CorridorPaths(on, seed, {}).path(target).length; };
+  const auto length = [&](const ExactGeodesics& on) { return CorridorPaths(on, seed, {}).path(target)->length; };
   EXPECT_NEAR(length(patched), length(made), 1e-12 * (1 + b[at(target)]));
 }
 

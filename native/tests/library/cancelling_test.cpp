@@ -223,7 +223,7 @@ TEST_F(Cancelling, TheHeatMethod) {
   const DistanceField field = heat.solve(0);
   const auto farthest =
       static_cast<std::int32_t>(std::ranges::max_element(field.distances()) - field.distances().begin());
-  const std::size_t crossed = field.trace(farthest).faces.size();
+  const std::size_t crossed = field.trace(farthest)->faces.size();
   ASSERT_GT(crossed, Poll::kFewSteps);
   expect_stops(crossed * Poll::kSteps / Poll::kFewSteps, [&](const Task& task) { field.trace(farthest, task); });
 }

@@ -265,13 +265,13 @@ std::int32_t CorridorPaths::seed() const {
   return impl_->seed.vertex < 0 ? -1 : impl_->mesh->external_vertex(impl_->seed.vertex);
 }
 
-IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) {
+std::optional<IntrinsicPath> CorridorPaths::path(const SurfacePoint& target, const Task& task) {
   const GeodesicMesh& mesh = *impl_->mesh;
   const PlacedPoint end = PlacedPoint::of(mesh, target, "target");
   task.check(0.0);
   const std::int32_t corner = corner_of(mesh, end);
   impl_->from_seed.reach(corner, task);
-  if (std::isinf(impl_->from_seed.at(corner))) return {};
+  if (std::isinf(impl_->from_seed.at(corner))) return std::nullopt;
   impl_->find_corridor(end, task);
 
   const Submesh part = impl_->cutter.cut(impl_->corridor);
@@ -295,6 +295,7 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) 
     }
     path = shorten(mesh, impl_->cutter, path, impl_->seed, end, part_task);
   }
+  if (path.points.empty()) return std::nullopt;
   to_external(mesh, path);
   return path;
 }

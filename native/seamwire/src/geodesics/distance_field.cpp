@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/geodesics/distance_field.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -31,7 +32,7 @@ double DistanceField::distance(const SurfacePoint& point, const Task& task) cons
   return solved_->distance(point, task);
 }
 
-IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) const {
+std::optional<IntrinsicPath> DistanceField::trace(const SurfacePoint& point, const Task& task) const {
   return solved_->trace(point, task);
 }
 

@@ -30,11 +30,12 @@ class ExactField::Solved final : public SolvedField {
     if (target.vertex >= 0) return solved.at(target.vertex);
     return find_straight_start(solved, target, task).distance;
   }
-  IntrinsicPath trace(const SurfacePoint& point, const Task& task) const override {
+  std::optional<IntrinsicPath> trace(const SurfacePoint& point, const Task& task) const override {
     const PlacedPoint target = PlacedPoint::of(*geodesic_mesh, point, "point");
     const SolvedDistances solved = solved_distances();
-    if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return {};
+    if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return std::nullopt;
     IntrinsicPath path = trace_records(solved, records, crossings, target, task);
+    if (path.points.empty()) return std::nullopt;
     to_external(*geodesic_mesh, path);
     return path;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,10 +95,10 @@ class HeatGeodesics::Solved final : public SolvedField {
     task.check(0.0);
     return distance_of(prepared_->mesh.place(point, "point"));
   }
-  IntrinsicPath trace(const SurfacePoint& point, const Task& task) const override {
+  std::optional<IntrinsicPath> trace(const SurfacePoint& point, const Task& task) const override {
     task.check(0.0);
     const PlacedPoint from = prepared_->mesh.place(point, "point");
-    if (std::isinf(distance_of(from))) return {};
+    if (std::isinf(distance_of(from))) return std::nullopt;
     const GeodesicMesh& mesh = prepared_->geodesic_mesh(task);
     return shortened(mesh, descend(prepared_->mesh, complete(), ends_, from, task), task);
   }
@@ -130,8 +131,6 @@ HeatGeodesics::HeatGeodesics(const IntrinsicMesh& mesh, const Task& task) {
   check_mesh(mesh, task);
   prepared_ = std::make_shared<const Prepared>(mesh, task);
 }
-
-std::size_t HeatGeodesics::flips() const { return prepared_->system.flips(); }
 
 DistanceField HeatGeodesics::solve_checked(std::span<const SurfacePoint> sources, const SolveOptions& options,
                                            const Task& task) const {

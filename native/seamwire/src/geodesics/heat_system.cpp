@@ -42,10 +42,9 @@ void release(std::vector<T>& vector) {
 }  // namespace
 
 HeatSystem::HeatSystem(const IntrinsicMesh& mesh, const Task& task) {
-  IntrinsicTriangles triangles = intrinsic_delaunay(mesh, part_of(task, 0.0, 0.3));
-  flips_ = triangles.flips;
-  double sum = std::accumulate(triangles.lengths.begin(), triangles.lengths.end(), 0.0);
-  std::size_t count = triangles.lengths.size();
+  IntrinsicMesh delaunay = intrinsic_delaunay(mesh, part_of(task, 0.0, 0.3));
+  double sum = std::accumulate(delaunay.lengths.begin(), delaunay.lengths.end(), 0.0);
+  std::size_t count = delaunay.lengths.size();
   if (count == 0) {
     for (const LooseEdge& edge : mesh.loose_edges) sum += edge.length;
     count = mesh.loose_edges.size();
@@ -54,26 +53,26 @@ HeatSystem::HeatSystem(const IntrinsicMesh& mesh, const Task& task) {
   number_unknowns(mesh, unit_);
 
   std::vector<std::array<std::int32_t, 2>> edges;
-  edges.reserve(triangles.lengths.size() / 2 + strips_.size());
-  faces_.reserve(triangles.corners.size());
-  const Poll poll(task, 0.3, 0.35, triangles.corners.size());
-  for (std::size_t f = 0; f < triangles.corners.size(); ++f) {
+  edges.reserve(delaunay.lengths.size() / 2 + strips_.size());
+  faces_.reserve(delaunay.triangles.size());
+  const Poll poll(task, 0.3, 0.35, delaunay.triangles.size());
+  for (std::size_t f = 0; f < delaunay.triangles.size(); ++f) {
     poll.at(f);
-    const double *lengths = &triangles.lengths[3 * f], a = lengths[0] / unit_, b = lengths[1] / unit_,
+    const double *lengths = &delaunay.lengths[3 * f], a = lengths[0] / unit_, b = lengths[1] / unit_,
                  c = lengths[2] / unit_;
     Face face{.unknowns = {}, .base = a, .x = (a * a + c * c - b * b) / (2 * a), .y = four_areas(a, b, c) / (2 * a)};
-    for (std::size_t i = 0; i < 3; ++i) face.unknowns[i] = unknown_of_[triangles.corners[f][i]];
+    for (std::size_t i = 0; i < 3; ++i) face.unknowns[i] = unknown_of_[delaunay.triangles[f][i]];
     faces_.push_back(face);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t one = face.unknowns[i], other = face.unknowns[(i + 1) % 3];
-      if (one != other && triangles.twins[3 * f + i] < static_cast<std::int32_t>(3 * f + i)) {
+      if (one != other && delaunay.twins[3 * f + i] < static_cast<std::int32_t>(3 * f + i)) {
         edges.push_back({one, other});
       }
     }
   }
-  release(triangles.lengths);
-  release(triangles.twins);
-  release(triangles.corners);
+  release(delaunay.lengths);
+  release(delaunay.twins);
+  release(delaunay.triangles);
   for (const Strip& strip : strips_) edges.push_back({strip.a, strip.b});
   find_components();
   const double time = diffusion_time(part_of(task, 0.35, 0.4));

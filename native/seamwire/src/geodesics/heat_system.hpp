@@ -32,7 +32,6 @@ class HeatSystem {
 
   /// The distance of each vertex from the nearest source, infinite on parts of the mesh without one. Throws Cancelled.
   std::vector<double> distances(std::span<const HeatSource> sources, const Task& task) const;
-  std::size_t flips() const { return flips_; }
 
  private:
   /// A triangle in the plane: corners at (0, 0), (base, 0) and (x, y). Lengths are in mean edges.
@@ -57,7 +56,7 @@ class HeatSystem {
   std::vector<Face> faces_;
   std::vector<Strip> strips_;
   std::optional<ScalarCholesky> heat_, poisson_;
-  std::size_t unknown_count_ = 0, flips_ = 0;
+  std::size_t unknown_count_ = 0;
   double unit_ = 1.0;  // the mean edge
 };
 

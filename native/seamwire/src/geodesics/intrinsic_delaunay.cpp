@@ -35,7 +35,7 @@ void thicken(std::vector<double>& lengths) {
 
 class Flipper {
  public:
-  explicit Flipper(IntrinsicTriangles& mesh) : mesh_(mesh) {}
+  explicit Flipper(IntrinsicMesh& mesh) : mesh_(mesh) {}
 
   void run(const Task& task) {
     const std::size_t count = mesh_.twins.size();
@@ -60,7 +60,6 @@ class Flipper {
       const std::int32_t twin = mesh_.twins[h];
       if (twin < 0 || !(cotangent(h) + cotangent(twin) < kFlipBelow) || !flip(h)) continue;
       --flips_left;
-      ++mesh_.flips;
       for (const std::int32_t face : {h / 3, twin / 3}) {
         for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) push(side);
       }
@@ -95,7 +94,7 @@ class Flipper {
       return false;
     }
     const std::int32_t f = 3 * (h / 3), g = 3 * (t / 3);
-    const std::int32_t a = tail(h), b = tail(t), c = tail(ca), d = tail(db);
+    const std::int32_t a = mesh_.tail(h), b = mesh_.tail(t), c = mesh_.tail(ca), d = mesh_.tail(db);
     const std::array<std::pair<std::int32_t, std::int32_t>, 4> moves{
         {{db, f + 1}, {bc, f + 2}, {ca, g + 1}, {ad, g + 2}}};
     std::array<std::int32_t, 4> twins{};
@@ -113,28 +112,26 @@ class Flipper {
       mesh_.twins[to] = twins[i];
       if (twins[i] >= 0) mesh_.twins[twins[i]] = to;
     }
-    mesh_.corners[f / 3] = {c, d, b};
-    mesh_.corners[g / 3] = {d, c, a};
+    mesh_.triangles[f / 3] = {c, d, b};
+    mesh_.triangles[g / 3] = {d, c, a};
     mesh_.lengths[f] = mesh_.lengths[g] = cd;
     mesh_.twins[f] = g;
     mesh_.twins[g] = f;
     return true;
   }
 
-  std::int32_t tail(std::int32_t h) const { return mesh_.corners[h / 3][index(h % 3)]; }
-
-  IntrinsicTriangles& mesh_;
+  IntrinsicMesh& mesh_;
 };
 
 }  // namespace
 
-IntrinsicTriangles intrinsic_delaunay(const IntrinsicMesh& mesh, const Task& task) {
+IntrinsicMesh intrinsic_delaunay(const IntrinsicMesh& mesh, const Task& task) {
   task.check(0.0);
-  IntrinsicTriangles triangles{.corners = mesh.triangles, .twins = mesh.twins, .lengths = mesh.lengths};
+  IntrinsicMesh delaunay{{.triangles = mesh.triangles, .twins = mesh.twins}, mesh.vertex_count, mesh.lengths, {}, {}};
   task.check(0.0);
-  thicken(triangles.lengths);
-  Flipper(triangles).run(task);
-  return triangles;
+  thicken(delaunay.lengths);
+  Flipper(delaunay).run(task);
+  return delaunay;
 }
 
 }  // namespace seamwire::detail

@@ -161,8 +161,10 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
   const EmbeddedSurface& on = *prepared.embedded;
   if (const std::optional<SurfacePoint> to = on.points().find(point_of(*target), "target")) {
     const Task task{.stop = job.stop, .progress = {}};
-    Wire wire = map_wire(on.surface(), on.embedding(), paths.path(*to, task));
-    candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target, task);
+    if (const std::optional<IntrinsicPath> path = paths.path(*to, task)) {
+      Wire wire = map_wire(on.surface(), on.embedding(), *path);
+      candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target, task);
+    }
   }
   show_preview(asked, job.number, *target, std::move(candidate));
 }

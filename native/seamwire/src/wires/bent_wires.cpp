@@ -27,9 +27,17 @@ namespace {
 
 /// Edges that have the two deepest places on different ends of a line over them, or that a closed line crosses.
 struct Crossed {
-  std::vector<std::uint8_t> edges;   ///< of MeshEdges, whether the line crosses it
+  std::vector<std::uint8_t> edges;   ///< of EdgesAndHoles, whether the line crosses it
   std::vector<std::int32_t> places;  ///< where the line ends: faces, not holes
 };
+
+/// The edge that closes a cut. Throws InvalidInput unless the half-edge is the lowest of an edge.
+std::int32_t edge_of_cut(const EdgesAndHoles& edges, std::int32_t half_edge) {
+  const bool is_one = half_edge >= 0 && index(half_edge) < edges.edge_of.size();
+  const std::int32_t edge = is_one ? edges.edge_of[half_edge] : -1;
+  if (edge < 0 || edges.half_edge_of[edge] != half_edge) throw InvalidInput("the cut is of another embedding");
+  return edge;
+}
 
 /// Faces and holes around a closed cut, joined over edges that are not part of the tree of vertices it runs along. No
 /// line leads over an edge with siblings.
@@ -39,11 +47,10 @@ class Sides {
       : mesh_(mesh),
         edges_(mesh, task),
         is_in_tree_(spanning_tree(mesh, edges_, field.distances(), task)),
-        cut_(edges_.edge_of(half_edge)) {
-    if (cut_ < 0) throw InvalidInput("the cut is of another embedding");
+        cut_(edge_of_cut(edges_, half_edge)) {
     beside_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [&](const auto& visit) {
       const Poll filling(task, 0.3, 0.3, 1);
-      for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+      for (std::int32_t e = 0; index(e) < edges_.edge_count(); ++e) {
         filling.at(index(e));
         for (const std::int32_t f : edges_.faces[e]) visit(f, e);
       }
@@ -56,7 +63,7 @@ class Sides {
   Crossed line(const ExactGeodesics& geodesics, const Task& task) {
     const auto [left, right] = edges_.faces[cut_];
     flood(left, 1, task);
-    Crossed found{.edges = std::vector<std::uint8_t>(edges_.count(), 0), .places = {}};
+    Crossed found{.edges = std::vector<std::uint8_t>(edges_.edge_count(), 0), .places = {}};
     found.edges[cut_] = 1;
     if (sides_[right] != 0) {  // it does not separate
       walk(right, left, found.edges);
@@ -72,7 +79,7 @@ class Sides {
     return found;
   }
 
-  const std::vector<std::int32_t>& half_edges() const { return edges_.half_edges; }
+  const std::vector<std::int32_t>& half_edges() const { return edges_.half_edge_of; }
 
  private:
   std::int32_t beyond(std::int32_t edge, std::int32_t face) const {
@@ -104,10 +111,10 @@ class Sides {
   /// Distances from the vertices that have both sides beside them: those of the cut.
   std::vector<double> depths_of_vertices(const ExactGeodesics& geodesics, const Task& task) const {
     std::vector<std::uint8_t> seen(index(mesh_.vertex_count), 0);
-    const Poll poll(task, 0.3, 0.3, edges_.count());
-    for (std::size_t e = 0; e < edges_.count(); ++e) {
+    const Poll poll(task, 0.3, 0.3, edges_.edge_count());
+    for (std::size_t e = 0; e < edges_.edge_count(); ++e) {
       poll.at(e);
-      const std::int32_t h = edges_.half_edges[e];
+      const std::int32_t h = edges_.half_edge_of[e];
       for (const std::int32_t v : {mesh_.tail(h), mesh_.tip(h)}) {
         seen[v] = static_cast<std::uint8_t>(seen[v] | sides_[edges_.faces[e][0]] | sides_[edges_.faces[e][1]]);
       }
@@ -123,10 +130,10 @@ class Sides {
   /// A face or a hole is as deep as what is nearest of it.
   std::int32_t deepest(const std::vector<double>& depths, std::uint8_t side, const Task& task) const {
     std::vector<double> least(sides_.size(), kInfinity);
-    const Poll poll(task, 0.5, 0.5, edges_.count());
-    for (std::size_t e = 0; e < edges_.count(); ++e) {
+    const Poll poll(task, 0.5, 0.5, edges_.edge_count());
+    for (std::size_t e = 0; e < edges_.edge_count(); ++e) {
       poll.at(e);
-      const std::int32_t h = edges_.half_edges[e];
+      const std::int32_t h = edges_.half_edge_of[e];
       const double depth = std::min(depths[mesh_.tail(h)], depths[mesh_.tip(h)]);
       for (const std::int32_t f : edges_.faces[e]) least[f] = std::min(least[f], depth);
     }
@@ -138,7 +145,7 @@ class Sides {
   }
 
   const IntrinsicMesh& mesh_;
-  const MeshEdges edges_;
+  const EdgesAndHoles edges_;
   const std::vector<std::uint8_t> is_in_tree_;
   const std::int32_t cut_;           // the edge that closes it
   Csr<std::int32_t> beside_;         // edges of faces and holes
@@ -313,9 +320,9 @@ std::optional<BentWire> BentWires::through(const SurfacePoint& second, const Tas
   for (const bool other : {false, true}) {
     const SurfacePoint to = cover.lifted(second, other);
     if (!field || (to.vertex < 0 && to.face < 0)) return std::nullopt;
-    IntrinsicPath& path = paths[other ? 1 : 0];
-    path = cover.projected(field->trace(to, task));
-    if (path.points.size() < 2) return std::nullopt;
+    std::optional<IntrinsicPath> path = field->trace(to, task);
+    if (!path || path->points.size() < 2) return std::nullopt;
+    paths[other ? 1 : 0] = cover.projected(*std::move(path));
   }
   std::ranges::reverse(paths[1].points);
   std::ranges::reverse(paths[1].faces);

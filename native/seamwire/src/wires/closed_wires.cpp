@@ -268,14 +268,14 @@ class CutLocus {
 
   /// The edges that close loops, the longest first. `face_of` names the one that a face counts as.
   template <class FaceOf>
-  std::vector<Closing> closing_edges(const MeshEdges& edges, const FaceOf& face_of) const {
+  std::vector<Closing> closing_edges(const EdgesAndHoles& edges, const FaceOf& face_of) const {
     const std::vector<std::uint8_t> is_in_tree = spanning_tree(mesh_, edges, field_.distances(), task_);
     std::vector<Closing> closing;
-    closing.reserve(edges.count());
-    const Poll poll(task_, 0.25, 0.3, edges.count());
-    for (std::size_t e = 0; e < edges.count(); ++e) {
+    closing.reserve(edges.edge_count());
+    const Poll poll(task_, 0.25, 0.3, edges.edge_count());
+    for (std::size_t e = 0; e < edges.edge_count(); ++e) {
       poll.at(e);
-      const std::int32_t h = edges.half_edges[e];
+      const std::int32_t h = edges.half_edge_of[e];
       if (mesh_.has_siblings(h) || is_in_tree[e] != 0) continue;
       // Numbers that are not negative are ordered as their bits are. Half of them is more than enough.
       const std::uint64_t bits = std::bit_cast<std::uint64_t>(length_over(h)) >> 32U;
@@ -289,7 +289,7 @@ class CutLocus {
   /// The loops that the edges of neither tree, and those of the tree of the faces, close. No loop closes over an edge
   /// with siblings, and faces at such an edge count as one; loop() finds out whether what it offers does separate.
   std::vector<CutEdge> find() const {
-    const MeshEdges edges(mesh_, task_);
+    const EdgesAndHoles edges(mesh_, task_);
     const std::size_t face_count = edges.face_count + edges.hole_count;
     DisjointSets joined = joined_over_siblings(mesh_, face_count);
     const auto face_of = [&](std::int32_t face) { return mesh_.siblings.empty() ? face : joined.find(face); };
@@ -326,6 +326,9 @@ class CutLocus {
     return points;
   }
 
+  /// The path to a vertex that is reached.
+  IntrinsicPath path_to(std::int32_t vertex) const { return field_.trace(vertex, task_).value(); }
+
   /// Of the beginning of a wire, in the tangent plane: unit, 0 where it has no length there.
   Vector direction(const IntrinsicPath& path) const {
     const std::vector<Vector> points = line(path);
@@ -338,7 +341,7 @@ class CutLocus {
 
   const Vector& direction_to(std::int32_t vertex) {
     const auto [entry, is_new] = directions_.try_emplace(vertex);
-    if (is_new) entry->second = direction(field_.trace(vertex, task_));
+    if (is_new) entry->second = direction(path_to(vertex));
     return entry->second;
   }
 
@@ -457,9 +460,9 @@ class CutLocus {
     std::vector<Vector> directions;
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < points.size(); i += step) {
-      const IntrinsicPath path = field_.trace(points[i], task_);
-      if (path.points.empty()) continue;
-      const Vector along = direction(path);
+      const std::optional<IntrinsicPath> path = field_.trace(points[i], task_);
+      if (!path) continue;
+      const Vector along = direction(*path);
       if (along.isZero(0)) return false;
       directions.push_back(along);
       spread += along * along.transpose();
@@ -481,8 +484,8 @@ class CutLocus {
   /// The loop over an edge, where it is one that the surface suggests.
   std::optional<ClosedWire> loop(const Rated& rated) {
     const std::int32_t h = rated.edge.half_edge;
-    IntrinsicPath path = field_.trace(mesh_.tail(h), task_);
-    const IntrinsicPath back = field_.trace(mesh_.tip(h), task_);
+    IntrinsicPath path = path_to(mesh_.tail(h));
+    const IntrinsicPath back = path_to(mesh_.tip(h));
     const std::vector<Vector> there = line(path), other = line(back);
     const double length_there = length_of(there), length_other = length_of(other);
     const double edge = (other.back() - there.back()).norm(), whole = length_there + edge + length_other;

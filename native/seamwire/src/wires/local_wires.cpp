@@ -68,7 +68,6 @@ std::optional<SurfacePoint> EmbeddedFaces::find(const SurfacePoint& point) const
 }
 
 Wire EmbeddedFaces::wire(IntrinsicPath path) const {
-  if (path.points.empty()) return {};
   for (PathPoint& point : path.points) {
     if (point.vertex >= 0) point.vertex = vertices_[point.vertex];
   }
@@ -94,9 +93,9 @@ std::optional<Wire> NearbyWires::wire(const SurfacePoint& target, const Task& ta
   if (!is_embedded() || !paths_) return std::nullopt;
   const std::optional<SurfacePoint> to = on_->find(target);
   if (!to) return std::nullopt;
-  Wire wire = on_->wire(paths_->path(*to, task));
-  if (wire.points.empty()) return std::nullopt;
-  return wire;
+  const std::optional<IntrinsicPath> path = paths_->path(*to, task);
+  if (!path) return std::nullopt;
+  return on_->wire(*path);
 }
 
 /// Those with a corner that near to the seed, and the seed's own; none if there are too many.
@@ -149,9 +148,9 @@ std::optional<Wire> refined_wire(const std::shared_ptr<const Surface>& surface, 
   const std::optional<SurfacePoint> source = on.find(from), target = on.find(to);
   if (!source || !target) return std::nullopt;
   const DistanceField field = on.geodesics().solve(std::array{*source}, {.targets = {*target}}, own);
-  Wire wire = on.wire(field.trace(*target, own));
-  if (wire.points.empty()) return std::nullopt;
-  return wire;
+  const std::optional<IntrinsicPath> path = field.trace(*target, own);
+  if (!path) return std::nullopt;
+  return on.wire(*path);
 }
 
 }  // namespace seamwire::detail

@@ -9,27 +9,27 @@ namespace seamwire::detail {
 LoopParts::LoopParts(const IntrinsicMesh& mesh, const std::vector<double>& distances, const Task& task)
     : mesh_(mesh), edges_(mesh, task) {
   Poll poll(task, 0.1, 0.1, 1);
-  faces_of_edge_ = Csr<std::int32_t>(edges_.count(), [&](const auto& visit) {
-    for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+  faces_of_edge_ = Csr<std::int32_t>(edges_.edge_count(), [&](const auto& visit) {
+    for (std::int32_t e = 0; index(e) < edges_.edge_count(); ++e) {
       poll.next();
       const auto [face, beyond] = edges_.faces[e];
-      const std::int32_t h = edges_.half_edges[e];
+      const std::int32_t h = edges_.half_edge_of[e];
       visit(e, face);
       if (!mesh.has_siblings(h)) visit(e, beyond);
       if (mesh.has_siblings(h)) mesh.for_each_beyond(h, [&](std::int32_t other) { visit(e, other / 3); });
     }
   });
   edges_of_face_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [&](const auto& visit) {
-    for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+    for (std::int32_t e = 0; index(e) < edges_.edge_count(); ++e) {
       poll.next();
       for (const std::int32_t f : faces_of_edge_[e]) visit(f, e);
     }
   });
   const std::vector<std::uint8_t> is_in_tree = spanning_tree(mesh, edges_, distances, task);
   tree_ = Csr<Step>(index(mesh.vertex_count), [&](const auto& visit) {
-    for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+    for (std::int32_t e = 0; index(e) < edges_.edge_count(); ++e) {
       poll.next();
-      const std::int32_t h = edges_.half_edges[e];
+      const std::int32_t h = edges_.half_edge_of[e];
       if (is_in_tree[e] == 0) continue;
       visit(mesh.tail(h), Step{mesh.tip(h), e});
       visit(mesh.tip(h), Step{mesh.tail(h), e});
@@ -43,7 +43,7 @@ LoopParts::LoopParts(const IntrinsicMesh& mesh, const std::vector<double>& dista
 
 /// Whether each edge is on the loop that an edge closes.
 std::vector<std::uint8_t> LoopParts::loop_edges(std::int32_t edge, const Task& task) const {
-  const std::int32_t from = mesh_.tail(edges_.half_edges[edge]), to = mesh_.tip(edges_.half_edges[edge]);
+  const std::int32_t from = mesh_.tail(edges_.half_edge_of[edge]), to = mesh_.tip(edges_.half_edge_of[edge]);
   std::vector<Step> back(index(mesh_.vertex_count), {-1, -1});
   std::vector<std::int32_t> front{from};
   back[from].to = from;
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> LoopParts::loop_edges(std::int32_t edge, const Task& t
       front.push_back(step.to);
     }
   }
-  std::vector<std::uint8_t> is_on_loop(edges_.count(), 0);
+  std::vector<std::uint8_t> is_on_loop(edges_.edge_count(), 0);
   is_on_loop[edge] = 1;
   if (back[to].to < 0) return is_on_loop;
   for (std::int32_t v = to; v != from; v = back[v].to) {
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> LoopParts::loop_edges(std::int32_t edge, const Task& t
 }
 
 std::vector<std::uint8_t> LoopParts::side_of(std::int32_t half_edge, const Task& task) const {
-  const std::int32_t edge = edges_.edge_of(half_edge);
+  const std::int32_t edge = edges_.edge_of[half_edge];
   const std::vector<std::uint8_t> is_on_loop = loop_edges(edge, task);
   std::vector<std::uint8_t> side(edges_of_face_.row_count(), kElsewhere);
   std::vector<std::int32_t> front;

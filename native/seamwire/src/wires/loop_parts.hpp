@@ -32,7 +32,7 @@ class LoopParts {
   };
 
   const IntrinsicMesh& mesh_;
-  const MeshEdges edges_;
+  const EdgesAndHoles edges_;
   Csr<std::int32_t> faces_of_edge_;  // and holes
   Csr<std::int32_t> edges_of_face_;
   Csr<Step> tree_;  // per vertex

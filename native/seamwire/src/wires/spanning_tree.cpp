@@ -54,15 +54,13 @@ void walk_boundary(const IntrinsicMesh& mesh, std::int32_t first, const Visit& v
 
 }  // namespace
 
-MeshEdges::MeshEdges(const IntrinsicMesh& mesh, const Task& task) : face_count(mesh.face_count()) {
+EdgesAndHoles::EdgesAndHoles(const IntrinsicMesh& mesh, const Task& task)
+    : NumberedEdges(numbered_edges(mesh, Poll(task, 0.0, 0.05, 3 * mesh.face_count()))), face_count(mesh.face_count()) {
   std::vector<std::int32_t> hole_of(3 * face_count, -1);
-  half_edges.reserve(3 * face_count / 2 + 1);
-  faces.reserve(half_edges.capacity());
-  const Poll poll(task, 0.0, 0.1, 3 * face_count);
-  for (std::int32_t h = 0; index(h) < 3 * face_count; ++h) {
-    poll.at(index(h));
-    if (first_of_edge(mesh, h) < h) continue;
-    half_edges.push_back(h);
+  faces.reserve(edge_count());
+  Poll poll(task, 0.05, 0.1, edge_count());
+  for (const std::int32_t h : half_edge_of) {
+    poll.next();
     if (const std::int32_t twin = mesh.twins[h]; twin >= 0 || mesh.has_siblings(h)) {
       faces.push_back({h / 3, twin >= 0 ? twin / 3 : h / 3});
       continue;
@@ -75,13 +73,7 @@ MeshEdges::MeshEdges(const IntrinsicMesh& mesh, const Task& task) : face_count(m
   }
 }
 
-std::int32_t MeshEdges::edge_of(std::int32_t half_edge) const {
-  const auto found = std::ranges::lower_bound(half_edges, half_edge);
-  if (found == half_edges.end() || *found != half_edge) return -1;
-  return static_cast<std::int32_t>(found - half_edges.begin());
-}
-
-std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdges& edges,
+std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const EdgesAndHoles& edges,
                                         const std::vector<double>& distances, const Task& task) {
   struct Up {
     double length = kInfinity;
@@ -93,15 +85,15 @@ std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdg
     if (!(distances[a] < distances[b])) return;
     if (distances[a] + length < up[b].length) up[b] = {distances[a] + length, a, edge};
   };
-  const Poll seeing(task, 0.1, 0.2, edges.count());
-  for (std::size_t e = 0; e < edges.count(); ++e) {
+  const Poll seeing(task, 0.1, 0.2, edges.edge_count());
+  for (std::size_t e = 0; e < edges.edge_count(); ++e) {
     seeing.at(e);
-    const std::int32_t h = edges.half_edges[e];
+    const std::int32_t h = edges.half_edge_of[e];
     see(mesh.tail(h), mesh.tip(h), mesh.lengths[h], static_cast<std::int32_t>(e));
   }
   for (const LooseEdge& edge : mesh.loose_edges) see(edge.a, edge.b, edge.length, -1);
 
-  std::vector<std::uint8_t> is_in(edges.count(), 0);
+  std::vector<std::uint8_t> is_in(edges.edge_count(), 0);
   DisjointSets parts(up.size());
   const Poll joining(task, 0.2, 0.2, up.size());
   for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
@@ -120,10 +112,10 @@ std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdg
     if (std::isfinite(whole) && parts.find(a) != parts.find(b)) bridges.push_back({whole, edge, a, b});
   };
   for (const LooseEdge& edge : mesh.loose_edges) see_bridge(edge.a, edge.b, edge.length, -1);
-  const Poll bridging(task, 0.2, 0.25, edges.count());
-  for (std::size_t e = 0; e < edges.count(); ++e) {
+  const Poll bridging(task, 0.2, 0.25, edges.edge_count());
+  for (std::size_t e = 0; e < edges.edge_count(); ++e) {
     bridging.at(e);
-    const std::int32_t h = edges.half_edges[e];
+    const std::int32_t h = edges.half_edge_of[e];
     see_bridge(mesh.tail(h), mesh.tip(h), mesh.lengths[h], static_cast<std::int32_t>(e));
   }
   std::ranges::sort(bridges, {}, [](const Bridge& bridge) { return std::pair(bridge.length, bridge.edge); });

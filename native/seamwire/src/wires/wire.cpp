@@ -78,7 +78,6 @@ void detail::check_field(const Embedding& embedding, const DistanceField& field)
 Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
   Wire wire;
   check_embedding(surface, embedding);
-  if (path.points.empty()) return wire;
   check_path(surface, embedding, path);
   wire.length = path.length;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
@@ -119,9 +118,9 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
 std::optional<Wire> trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                                const SurfacePoint& point, const Task& task) {
   check_field(embedding, field);
-  const IntrinsicPath path = field.trace(point, task);
-  if (path.points.empty()) return std::nullopt;
-  Wire wire = map_wire(surface, embedding, path);
+  const std::optional<IntrinsicPath> path = field.trace(point, task);
+  if (!path) return std::nullopt;
+  Wire wire = map_wire(surface, embedding, *path);
   if (const std::int32_t seed = field.seed(); seed >= 0) wire.from = index(seed) < surface.vertex_count() ? seed : -1;
   if (is_index(point.vertex, surface.vertex_count())) wire.to = point.vertex;
   return wire;

@@ -77,16 +77,7 @@ std::int32_t PlanMesh::any_edge_between(std::int32_t a, std::int32_t b) const {
 
 void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task) {
   Poll poll(task);
-  const std::size_t half_edges = mesh.twins.size();
-  mesh.edge_of.assign(half_edges, -1);
-  mesh.half_edge_of.clear();
-  for (std::int32_t h = 0; index(h) < half_edges; ++h) {
-    poll.next();
-    if (mesh.edge_of[h] >= 0) continue;
-    mesh.edge_of[h] = static_cast<std::int32_t>(mesh.half_edge_of.size());
-    if (mesh.twins[h] >= 0) mesh.edge_of[mesh.twins[h]] = mesh.edge_of[h];
-    mesh.half_edge_of.push_back(h);
-  }
+  static_cast<NumberedEdges&>(mesh) = numbered_edges(mesh, poll);
   mesh.lengths.clear();
   mesh.is_real.clear();
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {

@@ -12,6 +12,7 @@
 #include "seamwire/surface/triangle_connectivity.hpp"
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
+#include "surface/numbered_edges.hpp"
 
 namespace seamwire::detail {
 
@@ -22,12 +23,10 @@ struct PlanNeighbor {
 };
 
 /// The mesh on which seams are planned: flat arrays, scaled so that the whole surface has area 1.
-struct PlanMesh : TriangleConnectivity {
+struct PlanMesh : TriangleConnectivity, NumberedEdges {
   std::vector<Vector> points;
-  std::vector<std::int32_t> edge_of;       ///< the edge of each half-edge
-  std::vector<std::int32_t> half_edge_of;  ///< one half-edge of each edge
-  std::vector<double> lengths;             ///< of each edge, rounded
-  double median_length = 0.0;              ///< of the edges; 0 without edges
+  std::vector<double> lengths;  ///< of each edge, rounded
+  double median_length = 0.0;   ///< of the edges; 0 without edges
   /// Whether seams may run along an edge. They may not where triangulating a polygon has created it.
   std::vector<std::uint8_t> is_real;
   std::vector<std::int32_t> sources;  ///< the surface's vertex of each vertex
@@ -37,7 +36,6 @@ struct PlanMesh : TriangleConnectivity {
   Csr<PlanNeighbor> all_neighbors;    ///< over all edges
 
   std::size_t vertex_count() const { return points.size(); }
-  std::size_t edge_count() const { return half_edge_of.size(); }
   bool is_boundary(std::int32_t edge) const { return twins[half_edge_of[edge]] < 0; }
   /// The real edge between two vertices, the one with the smaller number if there are two; -1 if they have no edge.
   std::int32_t edge_between(std::int32_t a, std::int32_t b) const;

@@ -72,7 +72,8 @@ std::size_t CandidateWires::kept_points() const {
 CandidateWires::Found CandidateWires::find_in(std::size_t metric, const Ends& ends, const Task& task) const {
   const EmbeddedSurface& on = *metrics_[metric];
   CorridorPaths paths(on.geodesics(), ends.from);
-  Wire wire = map_wire(on.surface(), on.embedding(), paths.path(ends.to, task));
+  const std::optional<IntrinsicPath> path = paths.path(ends.to, task);
+  Wire wire = path ? map_wire(on.surface(), on.embedding(), *path) : Wire();
   wire.from = ends.from;
   wire.to = ends.to;
   std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), *context_.snap_graph(task), wire, task);

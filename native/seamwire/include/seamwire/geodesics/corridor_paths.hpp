@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "seamwire/api.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -49,9 +50,9 @@ class SEAMWIRE_API CorridorPaths {
   /// After a cancellation, the object is still usable.
   ///
   /// \param target a point of the mesh
-  /// \returns a path like those of DistanceField::trace(). It has no points if the target is unreachable.
+  /// \returns a path like those of DistanceField::trace(), or nullopt if the target is unreachable
   /// \throws InvalidInput if DistanceField::distance() rejects the target
-  IntrinsicPath path(const SurfacePoint& target, const Task& = {});
+  std::optional<IntrinsicPath> path(const SurfacePoint& target, const Task& = {});
 
  private:
   struct Impl;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "seamwire/api.hpp"
@@ -28,7 +29,7 @@ struct PathPoint {
 
 /// A path over an IntrinsicMesh, from a source to a target. It is straight in each triangle.
 struct IntrinsicPath {
-  std::vector<PathPoint> points;    ///< empty if the target is unreachable; one point if it is the source
+  std::vector<PathPoint> points;    ///< one point if the target is the source
   std::vector<std::int32_t> faces;  ///< the triangle that each segment crosses or bounds; -1 along a loose edge
   double length = std::numeric_limits<double>::infinity();  ///< sum of the lengths of the segments
 };
@@ -53,7 +54,7 @@ class SEAMWIRE_API SolvedField {
   /// Trace the path to any point, as DistanceField::trace() promises.
   ///
   /// \param point a point of the mesh, not yet checked
-  virtual IntrinsicPath trace(const SurfacePoint& point, const Task& task) const = 0;
+  virtual std::optional<IntrinsicPath> trace(const SurfacePoint& point, const Task& task) const = 0;
 
  protected:
   SolvedField() = default;
@@ -106,10 +107,9 @@ class SEAMWIRE_API DistanceField {
   /// about proportional to the number of triangles that the path crosses.
   ///
   /// \param point a point of the mesh
-  /// \returns the path. It has no points if the point is unreachable or beyond radius(). EmbeddedField::trace() returns
-  ///   nullopt then.
+  /// \returns the path, or nullopt if the point is unreachable or beyond radius()
   /// \throws InvalidInput if distance() rejects the point
-  IntrinsicPath trace(const SurfacePoint& point, const Task& = {}) const;
+  std::optional<IntrinsicPath> trace(const SurfacePoint& point, const Task& = {}) const;
 
  protected:
   /// Return what the method has solved.

@@ -14,7 +14,8 @@ namespace seamwire {
 
 /// When a solve may stop.
 struct SolveOptions {
-  /// Largest distance to compute, 0 or more, in the unit of the mesh's lengths. Larger distances are infinite in the result.
+  /// Largest distance to compute, 0 or more, in the unit of the mesh's lengths. Larger distances are infinite in the
+  /// result.
   double max_distance = std::numeric_limits<double>::infinity();
   /// Points whose distances and paths are needed. The solve may stop once all are known, or are beyond `max_distance`.
   /// DistanceField::radius() tells how far it came. Empty: the whole mesh.

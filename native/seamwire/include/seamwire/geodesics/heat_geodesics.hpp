@@ -40,9 +40,6 @@ class SEAMWIRE_API HeatGeodesics final : public DistanceMethod {
   ///   triangles, or its lengths differ too much for the matrices
   explicit HeatGeodesics(const IntrinsicMesh& mesh, const Task& = {});
 
-  /// Return how many edges were flipped to make the triangles Delaunay.
-  std::size_t flips() const;
-
  private:
   struct Prepared;
   class Solved;

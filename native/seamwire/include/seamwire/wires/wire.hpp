@@ -20,7 +20,7 @@ enum class Along { kSurface, kEdges };
 struct Wire {
   std::int32_t from = -1;              ///< the caller's vertex; -1 if it is another point
   std::int32_t to = -1;                ///< the caller's vertex; -1 if it is another point
-  std::vector<Vector> points;          ///< in the caller's coordinates; empty if `to` is unreachable
+  std::vector<Vector> points;          ///< in the caller's coordinates
   std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex, -1 if the point is not a vertex
   std::vector<std::int32_t> faces;  ///< per segment: the caller's face that it lies in; -1 along an edge without a face
   double length = std::numeric_limits<double>::infinity();  ///< in the metric, in the caller's unit
@@ -36,7 +36,7 @@ struct Wire {
 /// \param surface the surface
 /// \param embedding an embedding of the surface
 /// \param path a path over the embedding
-/// \returns the wire, without points if the path has no points
+/// \returns the wire
 /// \throws InvalidInput if the embedding is of another surface, or the path is of another embedding. Sizes, and the
 ///   first and last vertex of the surface, are compared.
 SEAMWIRE_API Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
