@@ -8,6 +8,7 @@
 // is asked for one target after the other.
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <random>
 
 #include "mesh_input.hpp"
@@ -47,11 +48,11 @@ void measure(const std::string& file, const Options& options) {
       const std::int32_t target = t == 0 ? farthest : any(random);
       const double exact = field.distances()[static_cast<std::size_t>(target)];
       if (target == seed || std::isinf(exact)) continue;
-      IntrinsicPath path;
+      std::optional<IntrinsicPath> path;
       const double taken = seconds([&] { path = CorridorPaths(geodesics, seed, quick).path(target); });
       first.push_back(taken);
       next.push_back(seconds([&] { path = kept.path(target); }));
-      excess.push_back(path.length / exact - 1);
+      excess.push_back(path->length / exact - 1);
       sum += excess.back();
       worst = std::max(worst, excess.back());
     }
