@@ -379,7 +379,7 @@ void check_geodesics(const Patience& patience, const Surface& surface) {
   for (std::int32_t v = 0; v < mesh->vertex_count; ++v) {
     const double distance = field.distances()[static_cast<std::size_t>(v)];
     const std::optional<IntrinsicPath> exact = field.trace(v, patience.task()), path = quick.path(v, patience.task());
-    require(!exact == std::isinf(distance) && !path == std::isinf(distance), "what is reached has paths");
+    require(!exact == std::isinf(distance) && !path == std::isinf(distance), "every reachable vertex has paths");
     if (!exact) continue;
     require(is_near(exact->length, distance), "a path is as long as the distance");
     require(path->length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
@@ -420,7 +420,7 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
     require(wire->from == seed && wire->to == target, "a wire leads from the seed to the target");
     require(wire->length <= distance * 1.5 + 1e-9, "an exact wire is about as long as the distance");
     const std::optional<IntrinsicPath> path = quick.path(target, patience.task());
-    require(path.has_value(), "what is reached has a path at once");
+    require(path.has_value(), "every reachable vertex has a path at once");
     require(path->length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
     const std::vector<std::int32_t> chain = snap_to_edges(surface, graph, *wire);
     require(std::set(chain.begin(), chain.end()).size() == chain.size(), "a snapped wire repeats no vertex");

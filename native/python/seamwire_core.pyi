@@ -922,7 +922,7 @@ def snap_to_edges(
     Returns
     -------
     (k,) int32
-        Vertices, each once. Empty if the wire is empty, or if there is no such path.
+        Vertices, each once. Empty if there is no such path.
 
     Raises
     ------

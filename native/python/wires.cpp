@@ -121,7 +121,7 @@ progress : callable, optional
 Returns
 -------
 (k,) int32
-    Vertices, each once. Empty if the wire is empty, or if there is no such path.
+    Vertices, each once. Empty if there is no such path.
 
 Raises
 ------

@@ -93,7 +93,7 @@ TEST(HeatGeodesics, AreNearTheClosedFormOnASphereAndConverge) {
   EXPECT_LT(before, 0.01);
 }
 
-/// How many triangles have other corners, in two meshes of as many triangles.
+/// Counts triangles whose corners differ between two meshes with the same number of triangles.
 std::size_t changed_triangles(const IntrinsicMesh& before, const IntrinsicMesh& after) {
   std::size_t changed = 0;
   for (std::size_t f = 0; f < before.face_count(); ++f) changed += before.triangles[f] != after.triangles[f];
@@ -168,9 +168,9 @@ TEST(HeatGeodesics, PathsDescendToTheSeed) {
     sum_exact += exact.distances()[index(v)];
   }
   EXPECT_LT(sum, 1.01 * sum_exact);
-  const IntrinsicPath none = field.trace(100).value();
-  EXPECT_EQ(none.points.size(), 1U);
-  EXPECT_EQ(none.length, 0.0);
+  const IntrinsicPath to_seed = field.trace(100).value();
+  EXPECT_EQ(to_seed.points.size(), 1U);
+  EXPECT_EQ(to_seed.length, 0.0);
 }
 
 TEST(HeatGeodesics, TakeSeedsAndTargetsInFacesAndOnEdges) {

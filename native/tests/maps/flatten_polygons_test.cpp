@@ -89,7 +89,8 @@ TEST(FlattenPolygons, CutsRunAlongRealEdgesOnly) {
       for (Vector& p : mesh.points) p += Vector(noise(random), noise(random), noise(random));
       if (round > 3) {
         for (auto& polygon : mesh.polygons) {
-          std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()));
+          std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()),
+                      polygon.end());
           if (random() % 4 == 0) std::ranges::reverse(polygon);
         }
       }
@@ -203,7 +204,7 @@ TEST(FlattenPolygons, AnInnerVertexOfTwoTrianglesIsReachedByACut) {
       if (a != 24 || b != 31) continue;
       polygon.insert(polygon.begin() + static_cast<std::ptrdiff_t>(i) + 1, bend);
       // The triangle at the bend comes first.
-      std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>(i));
+      std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(i), polygon.end());
       break;
     }
   }

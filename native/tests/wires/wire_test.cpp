@@ -213,6 +213,7 @@ TEST(TraceWire, RefusesWhatDoesNotBelongTogether) {
       << "of vertices elsewhere";
   EXPECT_THROW(trace_wire(on.surface, on.embedding, ExactGeodesics(of_other.mesh).solve(0), 1).value(), InvalidInput);
   const auto map = [&](const IntrinsicPath& path) { return map_wire(on.surface, on.embedding, path); };
+  EXPECT_THROW(map({}), InvalidInput) << "no points";
   EXPECT_THROW(map({.points = {{.vertex = 0}, {.vertex = 4}}, .faces = {0}}), InvalidInput) << "a vertex too far";
   EXPECT_THROW(map({.points = {{.vertex = 0}, {.half_edge = 6, .t = 0.5}}, .faces = {0}}), InvalidInput) << "an edge";
   EXPECT_THROW(map({.points = {{.vertex = 0}, {.vertex = 3}}, .faces = {2}}), InvalidInput) << "a face";

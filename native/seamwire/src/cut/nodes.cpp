@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cut/tolerances.hpp"
+#include "detail/drop_repeats.hpp"
 #include "detail/infinity.hpp"
 #include "surface/point_segment.hpp"
 
@@ -98,7 +99,7 @@ std::map<NodePair, std::vector<std::int32_t>> nodes_on_pairs(const NodeTable& no
   }
   for (auto& [pair, own] : found) {
     std::ranges::sort(own);
-    own.erase(std::unique(own.begin(), own.end()), own.end());
+    drop_repeats(own);
     std::ranges::stable_sort(own, {}, [&nodes](std::int32_t n) { return nodes[n].weights[1]; });
   }
   return found;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
@@ -199,8 +200,7 @@ double median_edge(const Surface& surface, const EdgeAdjacency& adjacency, const
     for (const std::int32_t v : surface.triangles()[face]) vertices.push_back(v);
   }
   std::ranges::sort(vertices);
-  // Not std::ranges::unique: Clang 14 cannot read what libstdc++ 12 returns.
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  drop_repeats(vertices);
   std::vector<double> lengths;
   for (const std::int32_t v : vertices) {
     for (std::int32_t e = adjacency.begin(v); e < adjacency.end(v); ++e) {

@@ -271,8 +271,9 @@ std::vector<VertexChain> PartBorders::borders_of(const Parts& parts, std::int32_
 
 template <class Visit>
 void PartBorders::for_each_leaving(std::int32_t v, const Visit& visit) const {
-  const auto fans = std::ranges::equal_range(mesh_.vertices, v);
-  for (auto fan = fans.begin(); fan != fans.end(); ++fan) {
+  // Not std::ranges::equal_range: Clang 14 cannot compile it with GCC 12's library.
+  const auto [begin, end] = std::equal_range(mesh_.vertices.begin(), mesh_.vertices.end(), v);
+  for (auto fan = begin; fan != end; ++fan) {
     mesh_.for_each_leaving(static_cast<std::int32_t>(fan - mesh_.vertices.begin()), visit);
   }
 }

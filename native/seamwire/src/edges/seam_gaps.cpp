@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "edges/edge_adjacency.hpp"
@@ -70,8 +71,7 @@ std::vector<std::vector<std::int32_t>> edge_chains(std::span<const Edge> edges, 
     count = std::max({count, index(a) + 1, index(b) + 1});
   }
   std::ranges::sort(distinct);
-  const auto later = std::ranges::unique(distinct);
-  distinct.erase(later.begin(), later.end());
+  drop_repeats(distinct);
   std::vector<bool> is_end(count);
   for (const std::int32_t v : ends) {
     if (is_index(v, count)) is_end[v] = true;

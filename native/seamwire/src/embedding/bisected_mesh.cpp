@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
@@ -59,7 +60,7 @@ EmbeddingInput::EmbeddingInput(const Surface& on, const Metric& by, const EmbedO
   std::vector<std::int32_t> selected = *options.faces;
   for (const std::int32_t face : selected) check_index(face, surface.face_count(), "faces: face", "faces");
   std::ranges::sort(selected);
-  selected.erase(std::unique(selected.begin(), selected.end()), selected.end());
+  drop_repeats(selected);
   faces = half_edge_faces(surface, selected);
   callers_faces = std::move(selected);
 }
@@ -153,7 +154,7 @@ void BisectedMesh::select(const TriangleConnectivity& all, const std::vector<std
     selected_fans_.insert(selected_fans_.end(), all.triangles[f].begin(), all.triangles[f].end());
   }
   std::ranges::sort(selected_fans_);
-  selected_fans_.erase(std::unique(selected_fans_.begin(), selected_fans_.end()), selected_fans_.end());
+  drop_repeats(selected_fans_);
   const auto place = [](const std::vector<std::int32_t>& in, std::int32_t number) {
     const auto at = std::ranges::lower_bound(in, number);
     return at != in.end() && *at == number ? static_cast<std::int32_t>(at - in.begin()) : -1;
@@ -569,7 +570,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   }
   for (const std::int32_t f : holes) out.hole_faces.push_back(origins[f]);
   std::ranges::sort(out.hole_faces);
-  out.hole_faces.erase(std::unique(out.hole_faces.begin(), out.hole_faces.end()), out.hole_faces.end());
+  drop_repeats(out.hole_faces);
   // Each edge of holes alone, once.
   const auto is_hole = [&](std::int32_t f) { return std::binary_search(holes.begin(), holes.end(), f); };
   for (const std::int32_t f : holes) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/poll.hpp"
 #include "embedding/deviation.hpp"
@@ -106,7 +107,7 @@ void Bisection::begin_newest_vertex_bisection() {
   std::vector<std::int32_t> deferred;
   deferred.swap(deferred_);
   std::sort(deferred.begin(), deferred.end());
-  deferred.erase(std::unique(deferred.begin(), deferred.end()), deferred.end());
+  drop_repeats(deferred);
   for (const std::int32_t f : deferred) consider(f);
 }
 

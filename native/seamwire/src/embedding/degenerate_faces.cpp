@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "graph/disjoint_sets.hpp"
 #include "surface/corner_fans.hpp"
@@ -76,7 +77,7 @@ class DegenerateFaces {
       }
       std::erase_if(degenerate, is_done);
       std::sort(degenerate.begin(), degenerate.end());
-      degenerate.erase(std::unique(degenerate.begin(), degenerate.end()), degenerate.end());
+      drop_repeats(degenerate);
     }
     CleanedFans clean;
     flatten(clean);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "embedding/bisection.hpp"
@@ -34,7 +35,7 @@ std::vector<std::int32_t> changed_faces(const Surface& surface, const Metric& fo
     corner_fans(surface).for_each_leaving(v, [&](std::int32_t h) { faces.push_back(h / 3); });
   }
   std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  drop_repeats(faces);
   return faces;
 }
 
@@ -139,7 +140,7 @@ std::size_t resolving_budget(const EmbeddingInput& input) {
 
 void sort_and_unify(std::vector<std::int32_t>& numbers) {
   std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  drop_repeats(numbers);
 }
 
 // The result of bisection, and of length repair after it.

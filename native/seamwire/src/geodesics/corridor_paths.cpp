@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
@@ -166,7 +167,7 @@ std::vector<std::int32_t> corners_of(const GeodesicMesh& mesh, const PlacedPoint
     for (std::int32_t h = 3 * in.face; h < 3 * in.face + 3; ++h) corners.push_back(mesh.half_edge(h).tail);
   }
   std::ranges::sort(corners);
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  drop_repeats(corners);
   return corners;
 }
 

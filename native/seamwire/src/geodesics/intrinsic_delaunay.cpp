@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "detail/half_edge.hpp"
-#include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "geodesics/triangle_area.hpp"
 
@@ -127,7 +126,11 @@ class Flipper {
 
 IntrinsicMesh intrinsic_delaunay(const IntrinsicMesh& mesh, const Task& task) {
   task.check(0.0);
-  IntrinsicMesh delaunay{{.triangles = mesh.triangles, .twins = mesh.twins}, mesh.vertex_count, mesh.lengths, {}, {}};
+  IntrinsicMesh delaunay;
+  delaunay.triangles = mesh.triangles;
+  delaunay.twins = mesh.twins;
+  delaunay.vertex_count = mesh.vertex_count;
+  delaunay.lengths = mesh.lengths;
   task.check(0.0);
   thicken(delaunay.lengths);
   Flipper(delaunay).run(task);

@@ -15,8 +15,7 @@ namespace seamwire::detail {
 
 /// The path to a target that the records and the crossings tell, in internal numbers. Where one cannot be followed,
 /// which takes triangles thinner than rounding or stretched windows, the path goes along edges for a while. A target
-/// that is a vertex has a distance; another one may have none, and the path then no points, and its distances are
-/// exact. Throws Cancelled.
+/// that is a vertex must be reachable. If another one is not, the path has no points. Throws Cancelled.
 IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
                             const std::vector<SiblingCrossing>& crossings, const PlacedPoint& target, const Task& task);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "detail/csr.hpp"
+#include "detail/drop_repeats.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
@@ -41,7 +42,7 @@ std::vector<CornerAngles> angles_around(const GeodesicMesh& mesh, std::int32_t v
   }
   std::vector<std::int32_t> names = edges;
   std::ranges::sort(names);
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  drop_repeats(names);
   for (std::int32_t& edge : edges) {
     edge = static_cast<std::int32_t>(std::ranges::lower_bound(names, edge) - names.begin());
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "detail/csr.hpp"
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "numeric/cholesky_kernels.hpp"
 #include "seamwire/errors.hpp"
@@ -39,7 +40,7 @@ std::vector<std::int32_t> minimum_degree_order(std::size_t vertex_count,
     column.assign(neighbors[v].begin(), neighbors[v].end());
     column.push_back(v);
     std::ranges::sort(column);
-    column.erase(std::unique(column.begin(), column.end()), column.end());
+    drop_repeats(column);
     pattern.startVec(v);
     for (const std::int32_t row : column) pattern.insertBack(row, v) = 1.0;
   }

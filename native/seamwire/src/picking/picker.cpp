@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "detail/csr.hpp"
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "seamwire/surface/ray_tree.hpp"
@@ -113,7 +114,7 @@ struct Near {
 
 inline void make_unique(std::vector<std::int32_t>& numbers) {
   std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  drop_repeats(numbers);
 }
 
 }  // namespace detail

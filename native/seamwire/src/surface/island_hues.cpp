@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "seamwire/errors.hpp"
 
@@ -69,7 +70,7 @@ std::vector<std::vector<std::int32_t>> neighbors_of(std::span<const Triangle> tr
   }
   for (auto& own : around) {
     std::ranges::sort(own);
-    own.erase(std::ranges::unique(own).begin(), own.end());
+    drop_repeats(own);
   }
   return around;
 }

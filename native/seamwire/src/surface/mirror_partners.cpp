@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
@@ -192,8 +193,7 @@ class Growth {
         return h < 0 || image < 0 || image_of[h] >= 0 || image_of[image] >= 0 || side_counts_[h] != side_counts_[image];
       });
       std::ranges::stable_sort(ring, {}, &Pair::first);
-      const auto later = std::ranges::unique(ring, {}, &Pair::first);
-      ring.erase(later.begin(), later.end());
+      drop_repeats(ring, &Pair::first);
       enter(ring, partners);
       std::erase_if(ring, [&](const Pair& pair) {
         const auto [h, image] = pair;
@@ -218,8 +218,7 @@ class Growth {
       }
     }
     std::ranges::sort(pairs);
-    const auto later = std::ranges::unique(pairs);
-    pairs.erase(later.begin(), later.end());
+    drop_repeats(pairs);
     std::unordered_map<std::int32_t, std::size_t> first;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (const std::int32_t v : pairs[i]) first.emplace(v, i);
@@ -254,8 +253,7 @@ std::vector<std::int32_t> nearest_vertices(std::span<const Vector> points, std::
   }
   const auto key = [&](std::int32_t v) { return std::array{points[v].x(), points[v].y(), points[v].z()}; };
   polled_sort(rows, Poll(task), {}, [&](std::int32_t v) { return std::pair(key(v), v); });
-  const auto later = std::ranges::unique(rows, {}, key);
-  rows.erase(later.begin(), later.end());
+  drop_repeats(rows, key);
   std::ranges::sort(rows);
   std::vector<std::int32_t> found(places.size(), -1), asked;
   std::vector<Vector> kept, given;

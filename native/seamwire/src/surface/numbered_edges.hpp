@@ -20,7 +20,7 @@ struct NumberedEdges {
   std::size_t edge_count() const { return half_edge_of.size(); }
 };
 
-/// Numbers the edges of a mesh. `poll` looks at the task. Throws Cancelled.
+/// Numbers the edges of a mesh. `poll` is asked at each half-edge. Throws Cancelled.
 inline NumberedEdges numbered_edges(const TriangleConnectivity& mesh, const Poll& poll) {
   const std::size_t half_edges = 3 * mesh.face_count();
   NumberedEdges edges;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/drop_repeats.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/triangulate.hpp"
 #include "surface/check_polygons.hpp"
@@ -33,7 +34,7 @@ std::vector<Edge> polygon_edges(const PolygonMesh& mesh) {
     corner += size;
   }
   std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  drop_repeats(edges);
   return edges;
 }
 

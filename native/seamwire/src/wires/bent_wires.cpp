@@ -33,10 +33,10 @@ struct Crossed {
 
 /// The edge that closes a cut. Throws InvalidInput unless the half-edge is the lowest of an edge.
 std::int32_t edge_of_cut(const EdgesAndHoles& edges, std::int32_t half_edge) {
-  const bool is_one = half_edge >= 0 && index(half_edge) < edges.edge_of.size();
-  const std::int32_t edge = is_one ? edges.edge_of[half_edge] : -1;
-  if (edge < 0 || edges.half_edge_of[edge] != half_edge) throw InvalidInput("the cut is of another embedding");
-  return edge;
+  if (!is_index(half_edge, edges.edge_of.size()) || edges.half_edge_of[edges.edge_of[half_edge]] != half_edge) {
+    throw InvalidInput("the cut is of another embedding");
+  }
+  return edges.edge_of[half_edge];
 }
 
 /// Faces and holes around a closed cut, joined over edges that are not part of the tree of vertices it runs along. No

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/poll.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -43,7 +44,7 @@ EmbeddedFaces::EmbeddedFaces(std::shared_ptr<const Surface> surface, std::shared
   for (const Triangle& corners : mesh.triangles) vertices_.insert(vertices_.end(), corners.begin(), corners.end());
   for (const LooseEdge& edge : mesh.loose_edges) vertices_.insert(vertices_.end(), {edge.a, edge.b});
   std::ranges::sort(vertices_);
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  drop_repeats(vertices_);
   for (Triangle& corners : mesh.triangles) {
     for (std::int32_t& v : corners) v = compact(v);
   }

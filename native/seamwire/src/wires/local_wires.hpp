@@ -31,7 +31,7 @@ class EmbeddedFaces {
   const ExactGeodesics& geodesics() const { return *geodesics_; }
   /// A point of the surface as one of geodesics(); nothing if it is not on these faces.
   std::optional<SurfacePoint> find(const SurfacePoint& point) const;
-  /// A path of geodesics() on the surface; without points if the path has none.
+  /// A path of geodesics() as a wire on the surface.
   Wire wire(IntrinsicPath path) const;
 
  private:

@@ -21,7 +21,7 @@ class LoopParts {
 
   /// Cuts the mesh along the edges of the loop that a half-edge closes. Returns for each face and hole whether it is
   /// connected to the face of the half-edge (kLeft), only to the other side (kRight), or to neither. Nothing is kRight
-  /// if the loop does not separate. Throws Cancelled.
+  /// if the loop does not separate. The half-edge must be the lowest of its edge. Throws Cancelled.
   std::vector<std::uint8_t> side_of(std::int32_t half_edge, const Task& task) const;
 
  private:

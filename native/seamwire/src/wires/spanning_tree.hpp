@@ -16,7 +16,7 @@ namespace seamwire::detail {
 /// more face, numbered after the triangles. A boundary goes on over an edge with two triangles that cannot be oriented
 /// alike, and ends at an edge with three or more.
 struct EdgesAndHoles : NumberedEdges {
-  /// `task` is told of a tenth.
+  /// Reports the first tenth of the progress. Throws Cancelled.
   EdgesAndHoles(const IntrinsicMesh& mesh, const Task& task);
 
   std::size_t face_count, hole_count = 0;

@@ -28,6 +28,7 @@ void check_path(const Surface& surface, const Embedding& embedding, const Intrin
   const auto check = [](bool is_there) {
     if (!is_there) throw InvalidInput("the path is of another embedding");
   };
+  if (path.points.empty()) throw InvalidInput("path: it has no points");
   check(path.faces.size() + 1 == path.points.size());
   for (const PathPoint& point : path.points) {
     if (point.vertex >= 0) {

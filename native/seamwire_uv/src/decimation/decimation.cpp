@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "slits/slit_paths.hpp"
@@ -151,7 +152,7 @@ class Collapsing {
       return false;
     });
     std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    drop_repeats(found);
     return found;
   }
   /// The neighbors of a vertex over boundary edges and seams.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 
@@ -73,8 +74,7 @@ constexpr std::size_t kManyTouches = 64;
 
 void sort_out(auto& touches) {
   std::ranges::sort(touches);
-  // Clang 14 cannot read std::ranges::unique.
-  touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
+  drop_repeats(touches);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "maps/straight_corners.hpp"
@@ -81,7 +82,7 @@ struct Soup {
     if (rows.empty()) return {};
     std::vector<std::int32_t> used = numbers;
     std::ranges::sort(used);
-    used.erase(std::ranges::unique(used).begin(), used.end());
+    drop_repeats(used);
     for (std::int32_t& number : numbers) {
       number = static_cast<std::int32_t>(std::ranges::lower_bound(used, number) - used.begin());
     }
@@ -106,7 +107,7 @@ struct Soup {
     std::vector<std::int32_t> below(places.size(), -1);
     for (std::int32_t i = 0; i < island_count; ++i) {
       std::ranges::sort(places[i]);
-      places[i].erase(std::ranges::unique(places[i]).begin(), places[i].end());
+      drop_repeats(places[i]);
       if (places[i].empty()) continue;
       const auto [found, is_first] = firsts.try_emplace(std::move(places[i]), i);
       if (!is_first) below[i] = found->second;

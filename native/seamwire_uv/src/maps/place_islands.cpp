@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
@@ -201,7 +202,7 @@ class Placer {
     Fitted result;
     if (corners.empty()) return result;
     std::ranges::sort(corners);
-    corners.erase(std::ranges::unique(corners).begin(), corners.end());
+    drop_repeats(corners);
     const auto count = static_cast<double>(corners.size());
     const bool had_place = std::ranges::all_of(corners, [&](std::int32_t c) { return given_.before[c].allFinite(); });
     const auto before = [&](std::int32_t c) -> Vector2d { return had_place ? given_.before[c] : Vector2d::Zero(); };

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
@@ -295,7 +296,7 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
     poll.next();
     std::vector<std::int32_t>& own = corners[p];
     std::ranges::sort(own);
-    own.erase(std::unique(own.begin(), own.end()), own.end());  // Clang 14 cannot read std::ranges::unique
+    drop_repeats(own);
     by_corners.emplace(own, static_cast<std::int32_t>(p));
   }
   std::vector<std::int32_t> images;

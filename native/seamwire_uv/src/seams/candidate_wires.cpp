@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "context/interactive_embedding.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
@@ -73,13 +74,17 @@ CandidateWires::Found CandidateWires::find_in(std::size_t metric, const Ends& en
   const EmbeddedSurface& on = *metrics_[metric];
   CorridorPaths paths(on.geodesics(), ends.from);
   const std::optional<IntrinsicPath> path = paths.path(ends.to, task);
-  Wire wire = path ? map_wire(on.surface(), on.embedding(), *path) : Wire();
+  const Follow follow = metric == 0 ? Follow::kMin : Follow::kMax;
+  if (!path) {
+    return {{.from = ends.from, .to = ends.to, .follow = follow, .vertices = {}, .points = {}, .faces = {}}, kInfinity};
+  }
+  Wire wire = map_wire(on.surface(), on.embedding(), *path);
   wire.from = ends.from;
   wire.to = ends.to;
   std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), *context_.snap_graph(task), wire, task);
   return {{.from = ends.from,
            .to = ends.to,
-           .follow = metric == 0 ? Follow::kMin : Follow::kMax,
+           .follow = follow,
            .vertices = std::move(vertices),
            .points = std::move(wire.points),
            .faces = std::move(wire.faces)},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/drop_repeats.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
@@ -126,7 +127,7 @@ std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit
     });
   }
   std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  drop_repeats(found);
   return found;
 }
 

@@ -46,9 +46,9 @@ SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& 
 
 /// Average curvatures over about a radius.
 ///
-/// Curvature tensors are averaged over 1-rings, max(1, (radius / median edge)^2) times but at most 400 times. Both
-/// lengths are shares of the longest side of the box. Tensors of neighbors are turned by the least rotation between
-/// their normals, and weighted by the area around them. Normals do not change.
+/// Curvature tensors are averaged over 1-rings, max(1, (radius / median edge)^2) times but at most 400 times. The
+/// radius and the median edge are fractions of the longest side of the box. Tensors of neighbors are turned by the
+/// least rotation between their normals, and weighted by the area around them. Normals do not change.
 ///
 /// \param surface the surface
 /// \param curvature curvatures at its vertices

@@ -51,7 +51,7 @@ class SEAMWIRE_API SnapGraph {
 /// \param surface the surface
 /// \param graph the SnapGraph of the surface
 /// \param wire a wire from one vertex to another
-/// \returns the vertices of the path. Empty if the wire is empty, or no path of edges connects its ends.
+/// \returns the vertices of the path. Empty if the wire has no points, or no path of edges connects its ends.
 /// \throws InvalidInput if the wire does not begin and end at vertices, or its points do not lie in its faces
 /// \throws InvalidInput if the graph is of a surface with other numbers of vertices, faces or edges
 SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,

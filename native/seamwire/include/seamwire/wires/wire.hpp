@@ -37,6 +37,7 @@ struct Wire {
 /// \param embedding an embedding of the surface
 /// \param path a path over the embedding
 /// \returns the wire
+/// \throws InvalidInput if the path has no points
 /// \throws InvalidInput if the embedding is of another surface, or the path is of another embedding. Sizes, and the
 ///   first and last vertex of the surface, are compared.
 SEAMWIRE_API Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
