@@ -341,10 +341,10 @@ class PieceNet {
   bool overlap(const Corners& one, const Corners& other) const {
     for (const auto& [a, b] : {std::pair(&one, &other), std::pair(&other, &one)}) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const Point2 along = (*a)[(i + 1) % 3] - (*a)[i];
+        const Point2 from = (*a)[i], along = (*a)[(i + 1) % 3] - from;
         const double length = along.norm();
         if (!(length > 0.0)) return false;
-        const auto is_outside = [&](const Point2& p) { return cross(along, p - (*a)[i]) <= 2.0 * gap_ * length; };
+        const auto is_outside = [&](const Point2& p) { return cross(along, p - from) <= 2.0 * gap_ * length; };
         if (std::ranges::all_of(*b, is_outside)) return false;
       }
     }
