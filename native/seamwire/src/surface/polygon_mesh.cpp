@@ -34,7 +34,7 @@ std::vector<Edge> polygon_edges(const PolygonMesh& mesh) {
     corner += size;
   }
   std::ranges::sort(edges);
-  drop_repeats(edges);
+  detail::drop_repeats(edges);
   return edges;
 }
 
