@@ -5,12 +5,12 @@
 //
 // Both collapse edges onto one of their ends, in the order of quadric errors (Garland and Heckbert 1997), and refuse to
 // turn a triangle by more than 78 degrees. Prints for each:
-// - the processor time in milliseconds, the median of the repeats. OpenMesh's is that of its decimater alone, ours is
-// that
-//   of the whole function, which builds the simplified mesh too.
+// - the processor time in milliseconds, the median of the repeats
 // - the triangles left
 // - the mean and the largest distance of the mesh's vertices from the simplified one, in thousandths of its diagonal
 // - on symmetric meshes, the share of vertices whose mirror image is a vertex
+//
+// OpenMesh's time is that of its decimater alone. Ours also contains the building of the simplified mesh.
 #include "mesh_input.hpp"
 // After OpenMesh's mesh types.
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>

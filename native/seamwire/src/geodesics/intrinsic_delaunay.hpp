@@ -13,7 +13,7 @@ namespace seamwire::detail {
 /// Before that, all lengths grow by the same amount, at most 1e-5 of the mean length. So no triangle is thinner than
 /// rounding. See Sharp and Crane 2020, "A Laplacian for Nonmanifold Triangle Meshes".
 ///
-/// The result has neither siblings, nor loose edges, nor areas. Two corners of a triangle may be the same vertex.
+/// The result has no siblings, loose edges or areas. Two corners of a triangle may be the same vertex.
 /// Throws Cancelled.
 IntrinsicMesh intrinsic_delaunay(const IntrinsicMesh& mesh, const Task& task);
 
