@@ -138,7 +138,6 @@ TEST(SurfaceContext, ComputesEachThingOnceForAllItsCopies) {
   EXPECT_EQ(context.curvature()->k1, principal_curvatures(*surface).k1);
   EXPECT_EQ(context.smoothed_curvature(), copy.smoothed_curvature());
   EXPECT_EQ(context.edge_adjacency(), copy.edge_adjacency());
-  EXPECT_EQ(context.snap_graph(), copy.snap_graph());
   EXPECT_EQ(*context.feature_strength(), context.curvature()->difference());
   EXPECT_NE(SurfaceContext(surface), context);
 }
@@ -167,7 +166,6 @@ TEST(SurfaceContext, OfASurfaceThatCannotBeBuiltEveryCallSaysWhy) {
   EXPECT_NE(why.find("7"), std::string::npos);
   EXPECT_EQ(message_of([&] { context.surface(); }), why);
   EXPECT_EQ(message_of([&] { context.curvature(); }), why);
-  EXPECT_EQ(message_of([&] { context.snap_graph(); }), why);
   EXPECT_EQ(message_of([&] { context.edge_adjacency(); }), why);
   EXPECT_EQ(message_of([&] { context.peek_surface(); }), why);
   EXPECT_EQ(message_of([&] { context.wait_for_surface(1.0); }), why);
@@ -187,11 +185,9 @@ TEST(SurfaceContext, AfterACancelledCallTheNextOneComputes) {
     EXPECT_THROW(context.curvature(task), Cancelled);
     EXPECT_THROW(context.smoothed_curvature(task), Cancelled);
     EXPECT_THROW(context.edge_adjacency(task), Cancelled);
-    EXPECT_THROW(context.snap_graph(task), Cancelled);
   }
   EXPECT_NE(context.smoothed_curvature(), nullptr);
   EXPECT_NE(context.edge_adjacency(), nullptr);
-  EXPECT_NE(context.snap_graph(), nullptr);
 }
 
 TEST(SurfaceContext, ManyThreadsGetTheSame) {
@@ -204,7 +200,7 @@ TEST(SurfaceContext, ManyThreadsGetTheSame) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       threads.emplace_back([&, i] {
         found[i] = context.smoothed_curvature();
-        context.snap_graph();
+        context.edge_adjacency();
         embedded[i].emplace(context, MetricSpec::concave());
         embedded[i]->field(0).trace(100);
       });

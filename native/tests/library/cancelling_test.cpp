@@ -179,24 +179,17 @@ TEST_F(Cancelling, Scribbles) {
                [&](const Task& task) { apply_scribbles(surface, metric, std::vector{scribble}, std::nullopt, task); });
 }
 
-TEST_F(Cancelling, TheGraphToSnapTo) {
-  expect_stops(edges + 4 * edges + faces + 4 * 3 * faces, [&](const Task& task) { SnapGraph(surface, task); });
-  const Surface quads = shapes::quad_torus(160, 120).surface();  // whose diagonals are sorted
-  expect_stops(quads.edges().size() * (1 + 4 + 2 * 4) + 3 * quads.face_count() + 10 * quads.face_count(),
-               [&](const Task& task) { SnapGraph(quads, task); });
-}
-
 TEST_F(Cancelling, Snapping) {
   const Embedding embedding =
       embed(surface, euclidean_metric(surface, principal_curvatures(surface)), {.max_error = 0});
   const ExactGeodesics geodesics(embedding.mesh);
   const auto target = static_cast<std::int32_t>(vertices / 2);
   const Wire wire = trace_wire(surface, embedding, geodesics.solve(0), target).value();
-  const SnapGraph graph(surface);
+  const auto adjacency = make_edge_adjacency(surface);
   // Each edge of the chain was taken from the queue, and an integral is several steps long.
-  const std::size_t chain = snap_to_edges(surface, graph, wire).size();
+  const std::size_t chain = snap_to_edges(surface, *adjacency, wire).size();
   expect_stops(chain * Poll::kSteps / Poll::kFewSteps,
-               [&](const Task& task) { snap_to_edges(surface, graph, wire, task); });
+               [&](const Task& task) { snap_to_edges(surface, *adjacency, wire, task); });
 }
 
 TEST_F(Cancelling, Embedding) {

@@ -53,8 +53,8 @@ std::vector<Work> all_work() {
       {"Surface", [=](const Task& task) { Surface(mesh.points, mesh.triangles, std::nullopt, task); }},
       {"SurfaceContext",
        [=](const Task& task) { SurfaceContext(mesh.points, mesh.triangles).smoothed_curvature(task); }},
-      {"SurfaceContext's snap graph",
-       [=](const Task& task) { SurfaceContext(mesh.points, mesh.triangles).snap_graph(task); }},
+      {"SurfaceContext's edges",
+       [=](const Task& task) { SurfaceContext(mesh.points, mesh.triangles).edge_adjacency(task); }},
       {"make_metric on a new surface",
        [=](const Task& task) {
          make_metric(SurfaceContext(mesh.points, mesh.triangles), MetricSpec::concave(), task);

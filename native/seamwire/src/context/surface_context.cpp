@@ -88,11 +88,6 @@ std::shared_ptr<const EdgeAdjacency> SurfaceContext::edge_adjacency(const Task& 
   return *data_->edge_adjacency.get(last_part(task), [&](const Task& own) { return make_edge_adjacency(*on, own); });
 }
 
-std::shared_ptr<const SnapGraph> SurfaceContext::snap_graph(const Task& task) const {
-  const std::shared_ptr<const Surface> on = surface(first_part(task));
-  return data_->snap_graph.get(last_part(task), [&](const Task& own) { return SnapGraph(*on, own); });
-}
-
 std::shared_ptr<const Surface> SurfaceContext::peek_surface() const {
   if (const std::exception_ptr error = data_->surface.error()) std::rethrow_exception(error);
   const auto held = data_->surface.peek();

@@ -57,7 +57,6 @@ struct SurfaceContext::Data {
   detail::ComputedOnce<Curvatures> made_curvatures;
   detail::ComputedOnce<Curvature> smoothed_curvature;
   detail::ComputedOnce<std::shared_ptr<const EdgeAdjacency>> edge_adjacency;
-  detail::ComputedOnce<SnapGraph> snap_graph;
 
   detail::Mutex mutex;
   std::vector<std::weak_ptr<EmbeddedSurface::Data>> embedded SEAMWIRE_GUARDED_BY(mutex);  // of specs

@@ -22,12 +22,12 @@ namespace seamwire::detail {
 /// Fractions of the first seed's work, preparation included, at which its parts begin.
 inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
-/// The data that one metric needs for any seed: the last member along edges, the others across the surface.
+/// The data that one metric needs for any seed: `graph` along edges, `embedded` across the surface.
 struct Prepared {
   MetricSpec spec;
   std::shared_ptr<const Surface> surface;
   std::optional<EmbeddedSurface> embedded;
-  std::shared_ptr<const SnapGraph> snap_graph;
+  std::shared_ptr<const EdgeAdjacency> adjacency;
   std::shared_ptr<const EdgeGraph> graph;
 };
 

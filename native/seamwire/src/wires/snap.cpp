@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <numeric>
 #include <queue>
 #include <string>
 #include <tuple>
@@ -15,8 +14,10 @@
 #include "detail/infinity.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
+#include "edges/edge_adjacency.hpp"
 #include "graph/disjoint_sets.hpp"
 #include "graph/loop_erasure.hpp"
+#include "surface/corner_fans.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/polyline.hpp"
 
@@ -24,152 +25,99 @@ namespace seamwire {
 
 using namespace detail;
 
-struct detail::SnapData {
-  std::vector<std::int32_t> polygon_of_face;
-  Csr<std::int32_t> edges_of_polygon;  // numbers of Surface::edges()
-  Csr<std::int32_t> polygons_of_edge;
-  Csr<std::int32_t> edges_of_vertex;
-  std::vector<std::int32_t> first_edge;  // per vertex: its first edge in Surface::edges() as the smaller of the two
-
-  /// The number of a real edge, or -1.
-  std::int32_t find_edge(const Surface& surface, std::int32_t a, std::int32_t b) const {
-    const Edge edge = {std::min(a, b), std::max(a, b)};
-    const auto begin = surface.edges().begin() + first_edge[edge[0]];
-    const auto end = surface.edges().begin() + first_edge[edge[0] + 1];
-    const auto found = std::lower_bound(begin, end, edge);
-    return found != end && *found == edge ? static_cast<std::int32_t>(found - surface.edges().begin()) : -1;
-  }
-};
-
-SnapGraph::SnapGraph(const Surface& surface, const Task& task) {
-  auto data = std::make_shared<SnapData>();
-  const std::size_t vertices = surface.vertex_count(), faces = surface.face_count();
-  const std::vector<Edge>& edges = surface.edges();
-
-  data->first_edge.assign(vertices + 1, 0);
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  pairs.reserve(2 * edges.size());
-  const Poll listing(task, 0.0, 0.1, edges.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    listing.at(e);
-    ++data->first_edge[edges[e][0] + 1];
-    for (const std::int32_t v : edges[e]) pairs.push_back({v, static_cast<std::int32_t>(e)});
-  }
-  std::partial_sum(data->first_edge.begin(), data->first_edge.end(), data->first_edge.begin());
-  const auto rows = [&](std::size_t row_count, double begin, double end) {
-    Poll poll(task, begin, end, 2 * pairs.size());
-    return Csr<std::int32_t>(row_count, [&](const auto& visit) {
-      for (const auto& [row, item] : pairs) {
-        poll.next();
-        visit(row, item);
-      }
-    });
-  };
-  data->edges_of_vertex = rows(vertices, 0.1, 0.3);
-
-  pairs.clear();  // (face, real edge)
-  std::vector<std::tuple<Edge, std::int32_t>> diagonals;
-  const Poll looking(task, 0.3, 0.5, faces);
-  for (std::size_t f = 0; f < faces; ++f) {
-    looking.at(f);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = surface.triangles()[f][i], b = surface.triangles()[f][(i + 1) % 3];
-      if (a == b) continue;
-      const std::int32_t edge = data->find_edge(surface, a, b);
-      const auto face = static_cast<std::int32_t>(f);
-      if (edge >= 0) {
-        pairs.push_back({face, edge});
-      } else {
-        diagonals.push_back({{std::min(a, b), std::max(a, b)}, face});
-      }
-    }
-  }
-  Poll sorting(task, 0.5, 0.6, 32 * diagonals.size());
-  std::sort(diagonals.begin(), diagonals.end(), [&](const auto& a, const auto& b) {
-    sorting.next();
-    return a < b;
-  });
-  DisjointSets joined(faces);
-  const Poll joining(task, 0.6, 0.65, diagonals.size());
-  for (std::size_t i = 1; i < diagonals.size(); ++i) {
-    joining.at(i);
-    if (std::get<0>(diagonals[i]) == std::get<0>(diagonals[i - 1])) {
-      joined.join(std::get<1>(diagonals[i]), std::get<1>(diagonals[i - 1]));
-    }
-  }
-  data->polygon_of_face.resize(faces);
-  const Poll naming(task, 0.65, 0.7, faces);
-  for (std::size_t f = 0; f < faces; ++f) {
-    naming.at(f);
-    data->polygon_of_face[f] = joined.find(static_cast<std::int32_t>(f));
-  }
-  for (auto& [face, edge] : pairs) face = data->polygon_of_face[face];
-  data->edges_of_polygon = rows(faces, 0.7, 0.85);
-  for (auto& [polygon, edge] : pairs) std::swap(polygon, edge);
-  data->polygons_of_edge = rows(edges.size(), 0.85, 1.0);
-  data_ = std::move(data);
-}
-
 namespace {
 
-/// The edges that a snapped path may take, growing.
+/// The edges that a snapped path may take, growing. They are numbered as in EdgeAdjacency, from the smaller vertex to
+/// the other.
 class Band {
  public:
-  Band(const Surface& surface, const SnapData& graph) : surface_(surface), graph_(graph) {}
+  Band(const Surface& surface, const EdgeAdjacency& adjacency) : fans_(corner_fans(surface)), adjacency_(adjacency) {}
 
   const std::vector<std::int32_t>& edges() const { return edges_.numbers(); }
 
-  /// Adds the parts of the mesh that the wire runs over: the polygons it crosses, and the edges it follows.
+  /// Adds the polygons that the wire crosses, the edges it follows, and the polygons that share an edge with these.
   void add(const Wire& wire) {
+    std::vector<std::int32_t> followed;
     for (std::size_t i = 0; i < wire.faces.size(); ++i) {
       if (wire.faces[i] >= 0) {
-        add_polygon(graph_.polygon_of_face[wire.faces[i]]);
+        const auto found = std::ranges::lower_bound(fans_.faces, wire.faces[i]);
+        const bool is_there = found != fans_.faces.end() && *found == wire.faces[i];
+        if (is_there) add_polygon(static_cast<std::int32_t>(found - fans_.faces.begin()));
         continue;
       }
       const std::int32_t a = wire.vertices[i], b = wire.vertices[i + 1];
-      const std::int32_t edge = a >= 0 && b >= 0 ? graph_.find_edge(surface_, a, b) : -1;
+      const std::int32_t edge = a >= 0 && b >= 0 ? adjacency_.find(a, b) : -1;
       if (edge >= 0) {
         add_edge(edge);
+        followed.push_back(edge);
       } else {  // along the boundary of a hole that the embedding left
         if (a >= 0) add_vertex(a);
         if (b >= 0) add_vertex(b);
       }
     }
-  }
-  /// The polygons that share an edge with what is there.
-  void add_neighbors() {
-    const std::size_t before = edges().size();
-    for (std::size_t i = 0; i < before; ++i) add_polygons_of(edges()[i]);
+    const std::size_t before = triangles_.numbers().size();
+    for (std::size_t i = 0; i < before; ++i) {
+      const std::int32_t begin = 3 * triangles_.numbers()[i];
+      for (std::int32_t h = begin; h < begin + 3; ++h) {
+        fans_.for_each_beyond(h, [&](std::int32_t other) { add_polygon(other / 3); });
+      }
+    }
+    for (const std::int32_t edge : followed) add_polygons_beside(edge);
   }
   /// All around the vertices of what is there. False where that is nothing new.
   bool widen() {
     const std::size_t n = edges().size();
     for (; widened_ < n; ++widened_) {
-      for (const std::int32_t v : surface_.edges()[edges()[widened_]]) add_vertex(v);
+      const std::int32_t edge = edges()[widened_];
+      add_vertex(adjacency_.tail(edge));
+      add_vertex(adjacency_.head(edge));
     }
     return edges().size() > n;
   }
   void add_vertex(std::int32_t vertex) {
     if (!vertices_.insert(vertex).second) return;
-    for (const std::int32_t e : graph_.edges_of_vertex[vertex]) {
-      add_edge(e);
-      add_polygons_of(e);
-    }
+    for (std::int32_t e = adjacency_.begin(vertex); e < adjacency_.end(vertex); ++e) add_edge(e);
+    for_each_leaving(vertex, [&](std::int32_t h) { add_polygon(h / 3); });
   }
 
  private:
-  void add_edge(std::int32_t edge) { edges_.insert(edge); }
-  void add_polygon(std::int32_t polygon) {
-    if (!polygons_.insert(polygon).second) return;
-    for (const std::int32_t e : graph_.edges_of_polygon[polygon]) add_edge(e);
-  }
-  void add_polygons_of(std::int32_t edge) {
-    for (const std::int32_t polygon : graph_.polygons_of_edge[edge]) add_polygon(polygon);
+  void add_edge(std::int32_t edge) { edges_.insert(std::min(edge, adjacency_.twin(edge))); }
+
+  /// Adds the edges of the polygon that a triangle belongs to: all triangles joined across edges that are not real.
+  void add_polygon(std::int32_t triangle) {
+    std::size_t next = triangles_.numbers().size();
+    triangles_.insert(triangle);
+    for (; next < triangles_.numbers().size(); ++next) {
+      const std::int32_t begin = 3 * triangles_.numbers()[next];
+      for (std::int32_t h = begin; h < begin + 3; ++h) {
+        const std::int32_t edge = adjacency_.find(fans_.vertices[fans_.tail(h)], fans_.vertices[fans_.tip(h)]);
+        if (edge >= 0) {
+          add_edge(edge);
+        } else {
+          fans_.for_each_beyond(h, [&](std::int32_t other) { triangles_.insert(other / 3); });
+        }
+      }
+    }
   }
 
-  const Surface& surface_;
-  const SnapData& graph_;
-  InsertionMap edges_, polygons_, vertices_;
+  void add_polygons_beside(std::int32_t edge) {
+    const std::int32_t other = adjacency_.head(edge);
+    for_each_leaving(adjacency_.tail(edge), [&](std::int32_t h) {
+      if (fans_.vertices[fans_.tip(h)] == other || fans_.vertices[fans_.apex(h)] == other) add_polygon(h / 3);
+    });
+  }
+
+  template <class Visit>
+  void for_each_leaving(std::int32_t vertex, const Visit& visit) const {
+    const auto [first, last] = std::equal_range(fans_.vertices.begin(), fans_.vertices.end(), vertex);
+    for (auto fan = first; fan != last; ++fan) {
+      fans_.for_each_leaving(static_cast<std::int32_t>(fan - fans_.vertices.begin()), visit);
+    }
+  }
+
+  const CornerFans& fans_;
+  const EdgeAdjacency& adjacency_;
+  InsertionMap edges_, triangles_, vertices_;
   std::size_t widened_ = 0;  // edges whose surroundings are there
 };
 
@@ -184,7 +132,7 @@ constexpr double kTurning = 0.5;
 /// still count.
 class BandSearch {
  public:
-  BandSearch(const Surface& surface, const std::vector<std::int32_t>& edges, const Wire& wire)
+  BandSearch(const Surface& surface, const EdgeAdjacency& adjacency, std::vector<std::int32_t> edges, const Wire& wire)
       : surface_(surface),
         polyline_(wire.points),
         // Edges along the wire are for free, all but this: it decides among them by length.
@@ -193,14 +141,15 @@ class BandSearch {
     pairs.reserve(2 * edges.size());
     heads_.reserve(2 * edges.size());
     along_.reserve(edges.size());
+    std::ranges::sort(edges);  // so that of paths at the same cost it finds the same one, however the band has grown
     for (const std::int32_t e : edges) {
-      const Edge& edge = surface.edges()[e];
-      const std::int32_t a = vertices_.insert(edge[0]).first, b = vertices_.insert(edge[1]).first;
-      const Vector vector = surface.points()[edge[1]] - surface.points()[edge[0]];
+      const std::int32_t tail = adjacency.tail(e), head = adjacency.head(e);
+      const std::int32_t a = vertices_.insert(tail).first, b = vertices_.insert(head).first;
+      const Vector vector = surface.points()[head] - surface.points()[tail];
       along_.push_back({vector, vector.norm()});
-      for (const auto& [tail, head] : {std::pair(a, b), std::pair(b, a)}) {
-        pairs.push_back({tail, static_cast<std::int32_t>(heads_.size())});
-        heads_.push_back(head);
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+        pairs.push_back({from, static_cast<std::int32_t>(heads_.size())});
+        heads_.push_back(to);
       }
     }
     leaving_ = Csr<std::int32_t>(vertices_.numbers().size(), pairs);
@@ -332,11 +281,6 @@ class BandSearch {
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_;
 };
 
-std::vector<std::int32_t> closest_path(const Surface& surface, const std::vector<std::int32_t>& edges, const Wire& wire,
-                                       const Task& task, double done) {
-  return BandSearch(surface, edges, wire).path(wire.from, wire.to, task, done);
-}
-
 void check_wire(const Surface& surface, const Wire& wire) {
   const std::string not_on_it = "the wire is not on this surface: ";
   const auto check_vertex = [&](std::int32_t v) { check_index(v, surface.vertex_count(), not_on_it + "vertex"); };
@@ -358,20 +302,18 @@ void check_wire(const Surface& surface, const Wire& wire) {
 
 }  // namespace
 
-std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
+std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjacency& adjacency, const Wire& wire,
                                         const Task& task) {
   if (wire.points.empty()) return {};
   check_wire(surface, wire);
-  const SnapData& data = *graph.data_;
-  if (data.polygon_of_face.size() != surface.face_count() || data.first_edge.size() != surface.vertex_count() + 1 ||
-      index(data.first_edge.back()) != surface.edges().size()) {
-    throw InvalidInput("what to snap to is of another surface");
-  }
+  adjacency.check_size(surface);
   if (wire.from == wire.to) return {wire.from};
-  Band band(surface, data);
+  Band band(surface, adjacency);
+  const auto closest_path = [&](double done) {
+    return BandSearch(surface, adjacency, band.edges(), wire).path(wire.from, wire.to, task, done);
+  };
   band.add(wire);
-  band.add_neighbors();
-  std::vector<std::int32_t> path = closest_path(surface, band.edges(), wire, task, 0.0);
+  std::vector<std::int32_t> path = closest_path(0.0);
   if (!path.empty()) return path;
   // Polygons whose edges are not connected (one with a hole in it), or a wire over what is no real edge.
   DisjointSets connected(surface.vertex_count());
@@ -380,12 +322,10 @@ std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph&
   do {
     task.check(0.5);
     for (; joined < band.edges().size(); ++joined) {
-      const Edge& edge = surface.edges()[band.edges()[joined]];
-      connected.join(edge[0], edge[1]);
+      const std::int32_t edge = band.edges()[joined];
+      connected.join(adjacency.tail(edge), adjacency.head(edge));
     }
-    if (connected.find(wire.from) == connected.find(wire.to)) {
-      return closest_path(surface, band.edges(), wire, task, 0.5);
-    }
+    if (connected.find(wire.from) == connected.find(wire.to)) return closest_path(0.5);
   } while (band.widen());
   return {};
 }

@@ -72,8 +72,6 @@ class SEAMWIRE_API SurfaceContext {
   std::shared_ptr<const Curvature> smoothed_curvature(const Task& = {}) const;
   /// Return the EdgeAdjacency of the surface.
   std::shared_ptr<const EdgeAdjacency> edge_adjacency(const Task& = {}) const;
-  /// Return the SnapGraph of the surface.
-  std::shared_ptr<const SnapGraph> snap_graph(const Task& = {}) const;
 
   /// Return the surface, or null if it is not built yet. Does not wait.
   ///

@@ -2,46 +2,21 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "seamwire/api.hpp"
+#include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 #include "seamwire/wires/wire.hpp"
 
 namespace seamwire {
 
-namespace detail {
-struct SnapData;  // snap.cpp
-}
-
-class SnapGraph;
-SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
-                                                     const Task& task);
-
-/// What snap_to_edges() needs to know of a surface: its polygons, and the real edges around them.
-///
-/// Polygons are triangles joined across edges that are not real. Immutable. Copies share the data, and any number of
-/// threads may use it at once.
-class SEAMWIRE_API SnapGraph {
- public:
-  /// Find the polygons of a surface, in time proportional to its size.
-  ///
-  /// \param surface the surface
-  explicit SnapGraph(const Surface& surface, const Task& = {});
-
- private:
-  friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
-                                                 const Task& task);
-
-  std::shared_ptr<const detail::SnapData> data_;
-};
-
 /// Find a path of real edges that stays close to a wire and hardly zigzags.
 ///
 /// The path leads from wire.from to wire.to along Surface::edges(). Its edges belong to the polygons that the wire
-/// crosses, and to polygons that share an edge with these. If these edges do not connect the ends, the polygons around
+/// crosses, and to polygons that share an edge with these. Polygons are triangles joined across edges that are not
+/// real. If these edges do not connect the ends, the polygons around
 /// them are added, ring by ring.
 ///
 /// The path minimizes the sum of two terms. The first is its integral of the distance to the wire. The second is 1/2
@@ -49,12 +24,12 @@ class SEAMWIRE_API SnapGraph {
 /// number of faces crossed.
 ///
 /// \param surface the surface
-/// \param graph the SnapGraph of the surface
+/// \param adjacency the adjacency of the surface
 /// \param wire a wire from one vertex to another
 /// \returns the vertices of the path. Empty if the wire has no points, or no path of edges connects its ends.
 /// \throws InvalidInput if the wire does not begin and end at vertices, or its points do not lie in its faces
-/// \throws InvalidInput if the graph is of a surface with other numbers of vertices, faces or edges
-SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
-                                                     const Task& = {});
+/// \throws InvalidInput if the adjacency is of a surface with other numbers of vertices or edges
+SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjacency& adjacency,
+                                                     const Wire& wire, const Task& = {});
 
 }  // namespace seamwire
