@@ -183,7 +183,7 @@ TEST(TraceWire, IsTheSeedAloneOrNothingWhereThereIsNoPath) {
   EXPECT_EQ(here.euclidean_length, 0);
   EXPECT_EQ(snap_to_edges(two, *make_edge_adjacency(two), here), (std::vector<std::int32_t>{4}));
   EXPECT_FALSE(trace_wire(two, embedding, field, 10));
-  EXPECT_TRUE(snap_to_edges(two, *make_edge_adjacency(two), Wire{}).empty());
+  EXPECT_THROW(snap_to_edges(two, *make_edge_adjacency(two), Wire{}), InvalidInput);
   EXPECT_THROW(trace_wire(two, embedding, field, 18), InvalidInput);
   EXPECT_THROW(trace_wire(two, embedding, field, -1), InvalidInput);
 }

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "detail/infinity.hpp"
 #include "surface/real_edges.hpp"
 #include "wires/local_wires.hpp"
 
@@ -171,29 +172,31 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
 
 TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& target, bool is_refined,
                               const std::function<void(TargetWire)>& show, const std::stop_token& stop) const {
-  TargetWire answer{.seed_number = found.number, .target = target, .candidate = {}, .first_length = 0.0};
   const SeedSolution& solution = *found.answer;
   const Prepared& prepared = *solution.prepared;
   const EmbeddedSurface& on = *prepared.embedded;
   const Task task{.stop = stop, .progress = {}};
-  Wire wire = wire_of(solution, target, task).value_or(Wire{});
-  answer.first_length = wire.length;
+  std::optional<Wire> wire = wire_of(solution, target, task);
+  TargetWire answer{
+      .seed_number = found.number, .target = target, .candidate = {}, .first_length = wire ? wire->length : kInfinity};
+  answer.candidate.metric = prepared.spec;
   const auto take = [&](Wire of) {
     answer.candidate = candidate_between(prepared, std::move(of), solution.seed, target, task);
     answer.candidate.solved = true;
   };
-  if (is_refined) {
+  if (wire && is_refined) {
     if (show) {
-      take(wire);
+      take(*wire);
       show(answer);
     }
     const WireRefinement how{.max_error = settings_.max_error, .mean_edge_length = on.embedding().mean_edge_length};
     if (std::optional<Wire> better =
-            refined_wire(prepared.surface, on.metric(), wire, point_of(solution.seed), point_of(target), how, task)) {
-      wire = *std::move(better);
+            refined_wire(prepared.surface, on.metric(), *wire, point_of(solution.seed), point_of(target), how, task)) {
+      wire = std::move(better);
     }
   }
-  take(std::move(wire));
+  if (wire) take(*std::move(wire));
+  answer.candidate.solved = true;
   answer.candidate.final = answer.is_refined = true;
   return answer;
 }

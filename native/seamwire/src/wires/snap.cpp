@@ -282,6 +282,7 @@ class BandSearch {
 };
 
 void check_wire(const Surface& surface, const Wire& wire) {
+  if (wire.points.empty()) throw InvalidInput("the wire has no points");
   const std::string not_on_it = "the wire is not on this surface: ";
   const auto check_vertex = [&](std::int32_t v) { check_index(v, surface.vertex_count(), not_on_it + "vertex"); };
   check_vertex(wire.from);
@@ -304,7 +305,6 @@ void check_wire(const Surface& surface, const Wire& wire) {
 
 std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjacency& adjacency, const Wire& wire,
                                         const Task& task) {
-  if (wire.points.empty()) return {};
   check_wire(surface, wire);
   adjacency.check_size(surface);
   if (wire.from == wire.to) return {wire.from};

@@ -26,9 +26,9 @@ namespace seamwire {
 /// \param surface the surface
 /// \param adjacency the adjacency of the surface
 /// \param wire a wire from one vertex to another
-/// \returns the vertices of the path. Empty if the wire has no points, or no path of edges connects its ends.
-/// \throws InvalidInput if the wire does not begin and end at vertices, or its points do not lie in its faces
-/// \throws InvalidInput if the adjacency is of a surface with other numbers of vertices or edges
+/// \returns the vertices of the path. Empty if no path of edges connects its ends.
+/// \throws InvalidInput if the wire has no points, does not begin and end at vertices, or its points do not lie in its
+/// faces \throws InvalidInput if the adjacency is of a surface with other numbers of vertices or edges
 SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjacency& adjacency,
                                                      const Wire& wire, const Task& = {});
 
