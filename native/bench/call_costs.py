@@ -64,7 +64,6 @@ def calls_on(fineness: int) -> Calls:
     field = sw.distance_field(embedding, start)
     wire = field.trace(end)
     stroke = sw.Scribble(points[[start, end]], vertices=[start, end])
-    sw.snap_to_edges(surface, wire)
     middle = np.arange(points.shape[0] // 2, points.shape[0] // 2 + 100 * fineness)
     cuts = np.stack([middle[:-1], middle[1:]], axis=1)
     return {
@@ -80,7 +79,7 @@ def calls_on(fineness: int) -> Calls:
         ),
         "distance_field, further ones": lambda: sw.distance_field(embedding, start),
         "DistanceField.trace": lambda: field.trace(end),
-        "snap_to_edges, further ones": lambda: sw.snap_to_edges(surface, wire),
+        "snap_to_edges": lambda: sw.snap_to_edges(surface, wire),
         "edge_wires, further ones": lambda: sw.edge_wires(surface, metric, start),
         "crest_lines": lambda: sw.crest_lines(surface, curvature),
         "face_segments": lambda: sw.face_segments(surface, cuts),

@@ -314,7 +314,6 @@ void measure(const std::string& file, const Options& options) {
   std::vector<DistanceField> fields;
   fields.push_back(first.solve(0));
   const double duration = seconds([&] { fields.push_back(second.solve(0)); });
-  const auto adjacency = make_edge_adjacency(*surface);
   std::vector<double> traced, both;
   for (int i = 0; i < 500; ++i) {
     const std::int32_t to = any(random);
@@ -322,7 +321,7 @@ void measure(const std::string& file, const Options& options) {
     both.push_back(seconds([&] {
       for (std::size_t which = 0; which < 2; ++which) {
         const Wire wire = trace_wire(*surface, embeddings[which], fields[which], to).value();
-        if (!wire.points.empty()) snap_to_edges(*surface, *adjacency, wire);
+        if (!wire.points.empty()) snap_to_edges(*surface, wire);
       }
     }));
   }

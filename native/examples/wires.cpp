@@ -21,7 +21,7 @@ int main() {
   const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
   //! [snap]
   const Wire wire = embedded.field(start).trace(end).value();
-  const std::vector<std::int32_t> chain = snap_to_edges(embedded.surface(), *context.edge_adjacency(), wire);
+  const std::vector<std::int32_t> chain = snap_to_edges(embedded.surface(), wire);
   std::printf("%zu vertices from %d to %d\n", chain.size(), chain.front(), chain.back());
   //! [snap]
 

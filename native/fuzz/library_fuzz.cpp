@@ -410,7 +410,6 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
     }
   }
   CorridorPaths quick(solver, seed);
-  const auto adjacency = make_edge_adjacency(surface);
   for (std::int32_t left = 1 + from.below(3); left > 0; --left) {
     const std::int32_t target = from.below(surface.vertex_count());
     const double distance = field.distances()[static_cast<std::size_t>(target)];
@@ -422,7 +421,7 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
     const std::optional<IntrinsicPath> path = quick.path(target, patience.task());
     require(path.has_value(), "every reachable vertex has a path at once");
     require(path->length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
-    const std::vector<std::int32_t> chain = snap_to_edges(surface, *adjacency, *wire);
+    const std::vector<std::int32_t> chain = snap_to_edges(surface, *wire);
     require(std::set(chain.begin(), chain.end()).size() == chain.size(), "a snapped wire repeats no vertex");
   }
 }

@@ -98,10 +98,8 @@ Cancelled
 }
 
 py::array snap(const SurfaceObject& surface, const Wire& wire, const py::object& progress) {
-  return handed_over(Watch(progress).run([&](const Task& task) {
-    return snap_to_edges(*surface.surface, *surface.context.edge_adjacency(detail::part_of(task, 0.0, 0.0)), wire,
-                         task);
-  }));
+  return handed_over(
+      Watch(progress).run([&](const Task& task) { return snap_to_edges(*surface.surface, wire, task); }));
 }
 
 void bind_snap_to_edges(py::module_& module) {

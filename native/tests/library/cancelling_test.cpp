@@ -185,11 +185,9 @@ TEST_F(Cancelling, Snapping) {
   const ExactGeodesics geodesics(embedding.mesh);
   const auto target = static_cast<std::int32_t>(vertices / 2);
   const Wire wire = trace_wire(surface, embedding, geodesics.solve(0), target).value();
-  const auto adjacency = make_edge_adjacency(surface);
   // Each edge of the chain was taken from the queue, and an integral is several steps long.
-  const std::size_t chain = snap_to_edges(surface, *adjacency, wire).size();
-  expect_stops(chain * Poll::kSteps / Poll::kFewSteps,
-               [&](const Task& task) { snap_to_edges(surface, *adjacency, wire, task); });
+  const std::size_t chain = snap_to_edges(surface, wire).size();
+  expect_stops(chain * Poll::kSteps / Poll::kFewSteps, [&](const Task& task) { snap_to_edges(surface, wire, task); });
 }
 
 TEST_F(Cancelling, Embedding) {

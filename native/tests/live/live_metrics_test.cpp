@@ -289,8 +289,7 @@ TEST(LiveWire, MetricsThatStayAreNotPreparedAgain) {
   const LiveMetrics metrics{.wires = {MetricSpec::concave(), MetricSpec::euclidean()}};
   const MetricSet before(metrics, {});
   before.prepared[1]->get({}, [&](const Task&) {
-    return Prepared{
-        .spec = metrics.wires[1], .surface = nullptr, .embedded = std::nullopt, .adjacency = nullptr, .graph = nullptr};
+    return Prepared{.spec = metrics.wires[1], .surface = nullptr, .embedded = std::nullopt, .graph = nullptr};
   });
   const MetricSet changed({.wires = {MetricSpec::euclidean(), MetricSpec::concave({.parameter = 0.5})}}, {}, before);
   EXPECT_EQ(changed.prepared[0], before.prepared[1]);

@@ -37,7 +37,6 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLe
   live.seed({7});
   ASSERT_TRUE(live.wait());
   EXPECT_EQ(live.progress(), 1);
-  const auto adjacency = make_edge_adjacency(*surface);
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     const Embedding embedding = embed(*surface, default_metric_of(*surface, kKinds[i]), {.max_error = 0});
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(7);
@@ -51,7 +50,7 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLe
       EXPECT_EQ(got.points, expected.points);
       EXPECT_EQ(got.faces, expected.faces);
       EXPECT_EQ(got.length, expected.length);
-      EXPECT_EQ(got.vertices, snap_to_edges(*surface, *adjacency, expected));
+      EXPECT_EQ(got.vertices, snap_to_edges(*surface, expected));
       EXPECT_EQ(wires.active, 0);
       EXPECT_TRUE(wires.settled);
     }
@@ -527,7 +526,7 @@ TEST(LiveWire, TracesWiresOfALargeSurfaceInTheBackground) {
       embed(*surface, euclidean_metric(*surface, principal_curvatures(*surface)), {.max_error = 0});
   const Wire expected = trace_wire(*surface, embedding, ExactGeodesics(embedding.mesh).solve(7), target.a).value();
   EXPECT_EQ(wires.wires[0].points, expected.points);
-  EXPECT_EQ(wires.wires[0].vertices, snap_to_edges(*surface, *make_edge_adjacency(*surface), expected));
+  EXPECT_EQ(wires.wires[0].vertices, snap_to_edges(*surface, expected));
   live.seed({9});
   live.wires(target);  // asked before the seed's distances are there
   ASSERT_TRUE(live.wait());

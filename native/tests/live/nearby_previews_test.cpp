@@ -40,7 +40,6 @@ TEST(NearbyPreviews, AreMadeByAThreadThatMakesWayAndEmbedsLater) {
   const std::size_t metric = std::max(1U, std::thread::hardware_concurrency());
   const SurfaceContext context(surface);
   context.curvature({});
-  context.edge_adjacency({});
   const auto right_of_way = std::make_shared<RightOfWay>();
   right_of_way->update([] { return true; });
   EventCount events;

@@ -71,12 +71,17 @@ TEST(BoxTree, BuiltInOrderKeepsTheOrder) {
     tree.visit_in(Box(Vector(-1, -1, -1), Vector(200, 2, 2)), [&](std::int32_t i) {
       EXPECT_EQ(tree.order[i], i);
       visited.push_back(i);
+      return true;
     });
     std::ranges::sort(visited);
     ASSERT_EQ(visited.size(), static_cast<std::size_t>(count));
     for (std::int32_t i = 0; i < count; ++i) EXPECT_EQ(visited[i], i);
     visited.clear();
-    tree.visit_in(Box(Vector(10.5, 0.5, 0.5)), [&](std::int32_t i) { visited.push_back(i); });
+    const auto take = [&](std::int32_t i) {
+      visited.push_back(i);
+      return i != 10;
+    };
+    EXPECT_EQ(tree.visit_in(Box(Vector(10.5, 0.5, 0.5)), take), count <= 10) << "until it is told to stop";
     EXPECT_EQ(std::ranges::count(visited, 10), count > 10 ? 1 : 0);
     EXPECT_LE(visited.size(), 4U);
   }

@@ -124,7 +124,7 @@ TEST(ComplexWires, AWireCrossesTheSpineOfABookStraight) {
       EXPECT_NEAR(normal.normalized().dot(p - mesh.points[index(a)]), 0.0, 1e-12);
     }
   }
-  const std::vector<std::int32_t> chain = snap_to_edges(solved.surface, *make_edge_adjacency(solved.surface), wire);
+  const std::vector<std::int32_t> chain = snap_to_edges(solved.surface, wire);
   ASSERT_GT(chain.size(), 2U);
   EXPECT_EQ(chain.front(), from);
   EXPECT_EQ(chain.back(), to);

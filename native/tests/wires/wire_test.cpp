@@ -181,9 +181,9 @@ TEST(TraceWire, IsTheSeedAloneOrNothingWhereThereIsNoPath) {
   EXPECT_EQ(here.points, (std::vector<Vector>{two.points()[4]}));
   EXPECT_EQ(here.length, 0);
   EXPECT_EQ(here.euclidean_length, 0);
-  EXPECT_EQ(snap_to_edges(two, *make_edge_adjacency(two), here), (std::vector<std::int32_t>{4}));
+  EXPECT_EQ(snap_to_edges(two, here), (std::vector<std::int32_t>{4}));
   EXPECT_FALSE(trace_wire(two, embedding, field, 10));
-  EXPECT_THROW(snap_to_edges(two, *make_edge_adjacency(two), Wire{}), InvalidInput);
+  EXPECT_THROW(snap_to_edges(two, Wire{}), InvalidInput);
   EXPECT_THROW(trace_wire(two, embedding, field, 18), InvalidInput);
   EXPECT_THROW(trace_wire(two, embedding, field, -1), InvalidInput);
 }
@@ -301,8 +301,7 @@ TEST(SnapToEdges, AWireAlongEdgesSnapsToThem) {
   const Surface surface = shapes::grid(8).surface();
   const Embedding embedding = embed_euclidean(surface);
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(4 * 9);  // half way up the left side
-  const auto path =
-      snap_to_edges(surface, *make_edge_adjacency(surface), trace_wire(surface, embedding, field, 4 * 9 + 8).value());
+  const auto path = snap_to_edges(surface, trace_wire(surface, embedding, field, 4 * 9 + 8).value());
   std::vector<std::int32_t> row;
   for (std::int32_t i = 0; i <= 8; ++i) row.push_back(4 * 9 + i);
   EXPECT_EQ(path, row);
@@ -311,12 +310,11 @@ TEST(SnapToEdges, AWireAlongEdgesSnapsToThem) {
 TEST(SnapToEdges, GivesAChainInTheBandOfTheWireThatIsCloseToItAndTurnsLittle) {
   for (const Case& c : strong_cases()) {
     const Surface surface = c.mesh.surface();
-    const auto adjacency = make_edge_adjacency(surface);
     const Embedding embedding = embed_features(surface, c.follow, c.max_anisotropy);
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
     for (std::int32_t v = 5; index(v) < surface.vertex_count(); v += 97) {
       const Wire wire = trace_wire(surface, embedding, field, v).value();
-      const auto path = snap_to_edges(surface, *adjacency, wire);
+      const auto path = snap_to_edges(surface, wire);
       expect_chain(surface, path, 0, v);
       const std::set<Edge> band = band_of(surface, wire);
       std::map<Edge, double> weights;
@@ -379,9 +377,8 @@ TEST(SnapToEdges, NeverTakesADiagonalOfAPolygon) {
   const Surface surface(mesh.points, mesh.triangles, edges);
   const Embedding embedding = embed_euclidean(surface);
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
-  const auto adjacency = make_edge_adjacency(surface);
   for (std::int32_t v = 1; index(v) < surface.vertex_count(); ++v) {
-    const auto path = snap_to_edges(surface, *adjacency, trace_wire(surface, embedding, field, v).value());
+    const auto path = snap_to_edges(surface, trace_wire(surface, embedding, field, v).value());
     expect_chain(surface, path, 0, v);
     EXPECT_GE(path.size(), index(v % (n + 1) + v / (n + 1) + 1)) << "steps along two directions only";
   }
@@ -409,7 +406,7 @@ TEST(SnapToEdges, WidensTheBandWhereItDoesNotConnectTheEnds) {
   ring.edges.insert(ring.edges.end(), {{2, 8}, {8, 6}});  // round about, without a face
   const Surface surface = ring.surface();
   const Wire wire = polyline(0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
-  const auto path = snap_to_edges(surface, *make_edge_adjacency(surface), wire);
+  const auto path = snap_to_edges(surface, wire);
   expect_chain(surface, path, 0, 4);
   EXPECT_NE(std::find(path.begin(), path.end(), 8), path.end());
 }
@@ -417,7 +414,7 @@ TEST(SnapToEdges, WidensTheBandWhereItDoesNotConnectTheEnds) {
 TEST(SnapToEdges, IsEmptyWhereNoPathOfEdgesLeads) {
   const Surface surface = Ring().surface();
   const Wire wire = polyline(0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
-  EXPECT_TRUE(snap_to_edges(surface, *make_edge_adjacency(surface), wire).empty());
+  EXPECT_TRUE(snap_to_edges(surface, wire).empty());
 }
 
 TEST(SnapToEdges, StaysOnTheSheetOfTheWire) {
@@ -430,17 +427,15 @@ TEST(SnapToEdges, StaysOnTheSheetOfTheWire) {
   const Embedding embedding = embed_euclidean(surface);
   const std::int32_t columns = 2 * n + 1, from = columns, to = 4 * columns + n - 2;
   const DistanceField field = ExactGeodesics(embedding.mesh).solve(from);
-  const auto path =
-      snap_to_edges(surface, *make_edge_adjacency(surface), trace_wire(surface, embedding, field, to).value());
+  const auto path = snap_to_edges(surface, trace_wire(surface, embedding, field, to).value());
   expect_chain(surface, path, from, to);
   for (const std::int32_t v : path) EXPECT_LE(v % columns, n) << "on the other sheet";
 }
 
 TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
   const Surface surface = shapes::grid(2).surface();
-  const auto adjacency = make_edge_adjacency(surface);
   const Wire wire = polyline(0, {{0, 0, 0}, {0.5, 0, 0}}, 1, {0});
-  EXPECT_EQ(snap_to_edges(surface, *adjacency, wire), (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(snap_to_edges(surface, wire), (std::vector<std::int32_t>{0, 1}));
   for (const auto& spoil : std::vector<void (*)(Wire&)>{
            [](Wire& w) { w.from = 9; }, [](Wire& w) { w.to = -1; }, [](Wire& w) { w.faces[0] = 8; },
            [](Wire& w) { w.vertices[0] = 9; }, [](Wire& w) { w.vertices.clear(); }, [](Wire& w) { w.faces.clear(); },
@@ -448,15 +443,8 @@ TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
            [](Wire& w) { w.points[1].z() = 0.1; }}) {
     Wire wrong = wire;
     spoil(wrong);
-    EXPECT_THROW(snap_to_edges(surface, *adjacency, wrong), InvalidInput);
+    EXPECT_THROW(snap_to_edges(surface, wrong), InvalidInput);
   }
-}
-
-TEST(SnapToEdges, RefusesAGraphOfAnotherSurface) {
-  const Surface surface = shapes::grid(4).surface(), other = shapes::grid(5).surface();
-  const Embedding embedding = embed_euclidean(surface);
-  const Wire wire = trace_wire(surface, embedding, ExactGeodesics(embedding.mesh).solve(0), 24).value();
-  EXPECT_THROW(snap_to_edges(surface, *make_edge_adjacency(other), wire), InvalidInput);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace seamwire::detail {
 LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task) {
   LiveCandidate candidate;
   candidate.metric = prepared.spec;
-  candidate.vertices = snap_to_edges(*prepared.surface, *prepared.adjacency, wire, task);
+  candidate.vertices = snap_to_edges(*prepared.surface, wire, task);
   candidate.length = wire.length;
   candidate.points = std::move(wire.points);
   candidate.faces = std::move(wire.faces);

@@ -104,11 +104,12 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   const Task silent{.stop = stop, .progress = {}};
   const std::shared_ptr<const Surface> surface = context.surface(silent);
   std::atomic<double>& fraction = *metrics.fractions[which];
-  Prepared prepared{.spec = spec, .surface = surface, .embedded = std::nullopt, .adjacency = nullptr, .graph = nullptr};
-  const auto prepare_edges = [&] { prepared.adjacency = context.edge_adjacency(silent); };
-  if (which == 1) prepare_edges();  // while the other thread is at the curvatures
+  Prepared prepared{.spec = spec, .surface = surface, .embedded = std::nullopt, .graph = nullptr};
+  std::shared_ptr<const EdgeAdjacency> adjacency;
+  // While the other thread is at the curvatures.
+  if (!on_surface && which == 1) adjacency = context.edge_adjacency(silent);
   context.curvature(silent);
-  if (which != 1) prepare_edges();
+  if (!on_surface && which != 1) adjacency = context.edge_adjacency(silent);
   const bool scribbled = is_scribbled(*surface, metrics.scribbles, spec.kind());
   EmbedOptions options = interactive_options(*surface);
   if (on_surface && !scribbled) prepared.embedded = EmbeddedSurface::find(context, spec, options);
@@ -135,7 +136,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
   }
   if (!on_surface) {
-    prepared.graph = make_edge_graph(*surface, own, prepared.adjacency, metrics.scribbles, spec.kind(), task);
+    prepared.graph = make_edge_graph(*surface, own, std::move(adjacency), metrics.scribbles, spec.kind(), task);
     return prepared;
   }
   const auto metric = std::make_shared<const Metric>(std::move(own));

@@ -27,7 +27,6 @@ struct Prepared {
   MetricSpec spec;
   std::shared_ptr<const Surface> surface;
   std::optional<EmbeddedSurface> embedded;
-  std::shared_ptr<const EdgeAdjacency> adjacency;
   std::shared_ptr<const EdgeGraph> graph;
 };
 

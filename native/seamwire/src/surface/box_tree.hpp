@@ -102,20 +102,24 @@ struct BoxTree {
     }
   }
 
-  /// Calls visit(i) for the items order[i] in boxes that meet a box.
+  /// Calls visit(i) for the items order[i] in boxes that meet a box, until it returns false. Returns whether it never
+  /// did.
   template <class Visit>
-  void visit_in(const Box& within, const Visit& visit) const {
+  bool visit_in(const Box& within, const Visit& visit) const {
     std::array<std::int32_t, kMostDepth> waiting;
     std::size_t count = 0;
     if (!nodes.empty()) waiting[count++] = 0;
     while (count > 0) {
       const Node& node = nodes[waiting[--count]];
       if (!within.intersects(node.box)) continue;
-      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(i);
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+        if (!visit(i)) return false;
+      }
       if (node.count > 0) continue;
       waiting[count++] = node.first;
       waiting[count++] = node.first + 1;
     }
+    return true;
   }
 
  private:

@@ -14,6 +14,8 @@ namespace {
 /// rule of high order.
 constexpr std::size_t kSamples = 8;
 constexpr double kRoom = 1.0 + 1e-9;  // much more than distances are rounded by
+/// Segments near an edge above which each sample looks for its own nearest one.
+constexpr std::size_t kManySegments = 64;
 
 double fraction(std::size_t sample) { return (static_cast<double>(sample) + 0.5) / kSamples; }
 
@@ -35,15 +37,19 @@ Polyline::Polyline(const std::vector<Vector>& points) {
   tree_.build_in_order(segments_.size(), [&](std::int32_t s) { return Box(points[s]).extend(points[s + 1]); });
 }
 
-double Polyline::squared_distance(const Vector& p, const Segment& s) {
-  const double t = std::clamp((p - s.from).dot(s.along) * s.per_length2, 0.0, 1.0);
-  return (p - s.from - t * s.along).squaredNorm();
+double Polyline::squared_distance(double x, double y, double z, const Segment& s) {
+  const double px = x - s.from.x(), py = y - s.from.y(), pz = z - s.from.z();
+  double t = (px * s.along.x() + py * s.along.y() + pz * s.along.z()) * s.per_length2;
+  t = t < 0.0 ? 0.0 : t;
+  t = t > 1.0 ? 1.0 : t;
+  const double dx = px - t * s.along.x(), dy = py - t * s.along.y(), dz = pz - t * s.along.z();
+  return dx * dx + dy * dy + dz * dz;
 }
 
 double Polyline::distance(const Vector& p, double bound) const {
   double best = bound * bound;
   tree_.visit_near(p, best, 1.0, [&](std::int32_t s, double& least) {
-    least = best = std::min(least, squared_distance(p, segments_[s]));
+    least = best = std::min(least, squared_distance(p.x(), p.y(), p.z(), segments_[s]));
   });
   return std::sqrt(best);
 }
@@ -60,18 +66,20 @@ double Polyline::integral(const Vector& a, const Vector& b, double at_a, double 
   // Distances change no faster than their points move, so none on the edge is more than this.
   const double length = (b - a).norm(), most = 0.5 * (at_a + at_b + length) * kRoom;
   const Box reach(a.cwiseMin(b).array() - most, a.cwiseMax(b).array() + most);
-  tree_.visit_in(reach, [&](std::int32_t s) {
-    const auto [from, along, per_length2] = segments_[s];
+  std::size_t seen = 0;
+  const bool are_few = tree_.visit_in(reach, [&](std::int32_t s) {
+    const Segment segment = segments_[s];
     for (std::size_t i = 0; i < kSamples; ++i) {  // a loop that compilers make vectors of
-      const double px = x[i] - from.x(), py = y[i] - from.y(), pz = z[i] - from.z();
-      double t = (px * along.x() + py * along.y() + pz * along.z()) * per_length2;
-      t = t < 0.0 ? 0.0 : t;
-      t = t > 1.0 ? 1.0 : t;
-      const double dx = px - t * along.x(), dy = py - t * along.y(), dz = pz - t * along.z();
-      const double squared = dx * dx + dy * dy + dz * dz;
+      const double squared = squared_distance(x[i], y[i], z[i], segment);
       best[i] = squared < best[i] ? squared : best[i];
     }
+    return ++seen < kManySegments;
   });
+  for (std::size_t i = 0; i < kSamples && !are_few; ++i) {
+    tree_.visit_near({x[i], y[i], z[i]}, best[i], BoxTree::kRounded, [&](std::int32_t s, double& least) {
+      least = best[i] = std::min(least, squared_distance(x[i], y[i], z[i], segments_[s]));
+    });
+  }
   double sum = 0.0;
   for (const double squared : best) sum += std::sqrt(squared);
   return sum * length / kSamples;

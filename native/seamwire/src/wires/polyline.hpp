@@ -33,7 +33,7 @@ class Polyline {
     double per_length2;  // 0: it is a point
   };
 
-  static double squared_distance(const Vector& p, const Segment& s);
+  static double squared_distance(double x, double y, double z, const Segment& s);
 
   std::vector<Segment> segments_;
   BoxTree tree_;  // of the segments in their order

@@ -14,10 +14,10 @@
 #include "detail/infinity.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
-#include "edges/edge_adjacency.hpp"
 #include "graph/disjoint_sets.hpp"
 #include "graph/loop_erasure.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/real_edges.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/polyline.hpp"
 
@@ -27,17 +27,16 @@ using namespace detail;
 
 namespace {
 
-/// The edges that a snapped path may take, growing. They are numbered as in EdgeAdjacency, from the smaller vertex to
-/// the other.
+/// The edges that a snapped path may take, growing. They have their numbers in Surface::edges().
 class Band {
  public:
-  Band(const Surface& surface, const EdgeAdjacency& adjacency) : fans_(corner_fans(surface)), adjacency_(adjacency) {}
+  explicit Band(const Surface& surface) : surface_(surface), fans_(corner_fans(surface)) {}
 
   const std::vector<std::int32_t>& edges() const { return edges_.numbers(); }
 
   /// Adds the polygons that the wire crosses, the edges it follows, and the polygons that share an edge with these.
   void add(const Wire& wire) {
-    std::vector<std::int32_t> followed;
+    std::vector<Edge> followed;
     for (std::size_t i = 0; i < wire.faces.size(); ++i) {
       if (wire.faces[i] >= 0) {
         const auto found = std::ranges::lower_bound(fans_.faces, wire.faces[i]);
@@ -46,10 +45,8 @@ class Band {
         continue;
       }
       const std::int32_t a = wire.vertices[i], b = wire.vertices[i + 1];
-      const std::int32_t edge = a >= 0 && b >= 0 ? adjacency_.find(a, b) : -1;
-      if (edge >= 0) {
-        add_edge(edge);
-        followed.push_back(edge);
+      if (a >= 0 && b >= 0 && add_edge(a, b)) {
+        followed.push_back({a, b});
       } else {  // along the boundary of a hole that the embedding left
         if (a >= 0) add_vertex(a);
         if (b >= 0) add_vertex(b);
@@ -62,26 +59,33 @@ class Band {
         fans_.for_each_beyond(h, [&](std::int32_t other) { add_polygon(other / 3); });
       }
     }
-    for (const std::int32_t edge : followed) add_polygons_beside(edge);
+    for (const auto& [a, b] : followed) add_polygons_beside(a, b);
   }
   /// All around the vertices of what is there. False where that is nothing new.
   bool widen() {
     const std::size_t n = edges().size();
     for (; widened_ < n; ++widened_) {
-      const std::int32_t edge = edges()[widened_];
-      add_vertex(adjacency_.tail(edge));
-      add_vertex(adjacency_.head(edge));
+      for (const std::int32_t v : surface_.edges()[edges()[widened_]]) add_vertex(v);
     }
     return edges().size() > n;
   }
   void add_vertex(std::int32_t vertex) {
     if (!vertices_.insert(vertex).second) return;
-    for (std::int32_t e = adjacency_.begin(vertex); e < adjacency_.end(vertex); ++e) add_edge(e);
     for_each_leaving(vertex, [&](std::int32_t h) { add_polygon(h / 3); });
+    for (const auto& [a, b] : surface_.loose_edges()) {
+      if (a == vertex || b == vertex) add_edge(a, b);
+    }
   }
 
  private:
-  void add_edge(std::int32_t edge) { edges_.insert(std::min(edge, adjacency_.twin(edge))); }
+  /// False if it is no real edge.
+  bool add_edge(std::int32_t a, std::int32_t b) {
+    const Edge edge = ascending(a, b);
+    const auto found = std::ranges::lower_bound(surface_.edges(), edge);
+    if (found == surface_.edges().end() || *found != edge) return false;
+    edges_.insert(static_cast<std::int32_t>(found - surface_.edges().begin()));
+    return true;
+  }
 
   /// Adds the edges of the polygon that a triangle belongs to: all triangles joined across edges that are not real.
   void add_polygon(std::int32_t triangle) {
@@ -90,20 +94,15 @@ class Band {
     for (; next < triangles_.numbers().size(); ++next) {
       const std::int32_t begin = 3 * triangles_.numbers()[next];
       for (std::int32_t h = begin; h < begin + 3; ++h) {
-        const std::int32_t edge = adjacency_.find(fans_.vertices[fans_.tail(h)], fans_.vertices[fans_.tip(h)]);
-        if (edge >= 0) {
-          add_edge(edge);
-        } else {
-          fans_.for_each_beyond(h, [&](std::int32_t other) { triangles_.insert(other / 3); });
-        }
+        if (add_edge(fans_.vertices[fans_.tail(h)], fans_.vertices[fans_.tip(h)])) continue;
+        fans_.for_each_beyond(h, [&](std::int32_t other) { triangles_.insert(other / 3); });
       }
     }
   }
 
-  void add_polygons_beside(std::int32_t edge) {
-    const std::int32_t other = adjacency_.head(edge);
-    for_each_leaving(adjacency_.tail(edge), [&](std::int32_t h) {
-      if (fans_.vertices[fans_.tip(h)] == other || fans_.vertices[fans_.apex(h)] == other) add_polygon(h / 3);
+  void add_polygons_beside(std::int32_t a, std::int32_t b) {
+    for_each_leaving(a, [&](std::int32_t h) {
+      if (fans_.vertices[fans_.tip(h)] == b || fans_.vertices[fans_.apex(h)] == b) add_polygon(h / 3);
     });
   }
 
@@ -115,8 +114,8 @@ class Band {
     }
   }
 
+  const Surface& surface_;
   const CornerFans& fans_;
-  const EdgeAdjacency& adjacency_;
   InsertionMap edges_, triangles_, vertices_;
   std::size_t widened_ = 0;  // edges whose surroundings are there
 };
@@ -132,7 +131,7 @@ constexpr double kTurning = 0.5;
 /// still count.
 class BandSearch {
  public:
-  BandSearch(const Surface& surface, const EdgeAdjacency& adjacency, std::vector<std::int32_t> edges, const Wire& wire)
+  BandSearch(const Surface& surface, std::vector<std::int32_t> edges, const Wire& wire)
       : surface_(surface),
         polyline_(wire.points),
         // Edges along the wire are for free, all but this: it decides among them by length.
@@ -143,7 +142,7 @@ class BandSearch {
     along_.reserve(edges.size());
     std::ranges::sort(edges);  // so that of paths at the same cost it finds the same one, however the band has grown
     for (const std::int32_t e : edges) {
-      const std::int32_t tail = adjacency.tail(e), head = adjacency.head(e);
+      const auto& [tail, head] = surface.edges()[e];
       const std::int32_t a = vertices_.insert(tail).first, b = vertices_.insert(head).first;
       const Vector vector = surface.points()[head] - surface.points()[tail];
       along_.push_back({vector, vector.norm()});
@@ -186,7 +185,8 @@ class BandSearch {
   /// Of a directed edge: the least cost of a path that ends with it.
   struct State {
     double cost = kInfinity;
-    std::int32_t before = -1;  // the directed edge before it in that path; -1: none
+    double least_before = kInfinity;  // of all ways to the edge and onto it that were found
+    std::int32_t before = -1;         // the directed edge before it in that path; -1: none
     bool is_settled = false;
   };
   /// A directed edge at its cost, or behind `before`: not known to cost less that way.
@@ -232,12 +232,16 @@ class BandSearch {
   void leave(std::int32_t vertex, std::int32_t before) {
     const double here = distance(vertex, kInfinity);
     for (const std::int32_t edge : leaving_[vertex]) {
-      if (states_[edge].is_settled || edge == (before ^ 1)) continue;
+      State& state = states_[edge];
+      if (state.is_settled || edge == (before ^ 1)) continue;
+      const double so_far = cost_before(edge, before);
+      if (so_far > state.least_before) continue;
+      state.least_before = so_far;
       const double length = along_[edge / 2].length;
       const double there = distance(heads_[edge], (here + length) * (1.0 + 1e-12));
       const double least = Polyline::least_integral(length, here, there) + per_length_ * length;
-      const double cost = cost_before(edge, before) + (weights_[edge / 2] < 0 ? least : weights_[edge / 2]);
-      if (cost < states_[edge].cost) push(cost, edge, before);
+      const double cost = so_far + (weights_[edge / 2] < 0 ? least : weights_[edge / 2]);
+      if (cost < state.cost) push(cost, edge, before);
     }
   }
 
@@ -303,14 +307,12 @@ void check_wire(const Surface& surface, const Wire& wire) {
 
 }  // namespace
 
-std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjacency& adjacency, const Wire& wire,
-                                        const Task& task) {
+std::vector<std::int32_t> snap_to_edges(const Surface& surface, const Wire& wire, const Task& task) {
   check_wire(surface, wire);
-  adjacency.check_size(surface);
   if (wire.from == wire.to) return {wire.from};
-  Band band(surface, adjacency);
+  Band band(surface);
   const auto closest_path = [&](double done) {
-    return BandSearch(surface, adjacency, band.edges(), wire).path(wire.from, wire.to, task, done);
+    return BandSearch(surface, band.edges(), wire).path(wire.from, wire.to, task, done);
   };
   band.add(wire);
   std::vector<std::int32_t> path = closest_path(0.0);
@@ -322,8 +324,8 @@ std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjace
   do {
     task.check(0.5);
     for (; joined < band.edges().size(); ++joined) {
-      const std::int32_t edge = band.edges()[joined];
-      connected.join(adjacency.tail(edge), adjacency.head(edge));
+      const auto& [a, b] = surface.edges()[band.edges()[joined]];
+      connected.join(a, b);
     }
     if (connected.find(wire.from) == connected.find(wire.to)) return closest_path(0.5);
   } while (band.widen());

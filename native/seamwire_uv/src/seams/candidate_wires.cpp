@@ -31,8 +31,7 @@ CandidateWires::CandidateWires(const SurfaceContext& context, const Strength& st
                          }};
         const MetricSpec spec = MetricSpec::feature(i == 0 ? Follow::kMin : Follow::kMax, strength);
         metrics_[i].emplace(context_, spec, interactive_options(*context_.surface(own)), part_of(whole, 0.0, 0.6));
-        metrics_[i]->geodesics(part_of(whole, 0.6, 0.9));
-        context_.edge_adjacency(part_of(whole, 0.9, 1.0));
+        metrics_[i]->geodesics(part_of(whole, 0.6, 1.0));
       });
   most_points_ = metrics_[0]->surface().vertex_count();
 }
@@ -81,7 +80,7 @@ CandidateWires::Found CandidateWires::find_in(std::size_t metric, const Ends& en
   Wire wire = map_wire(on.surface(), on.embedding(), *path);
   wire.from = ends.from;
   wire.to = ends.to;
-  std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), *context_.edge_adjacency(task), wire, task);
+  std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), wire, task);
   return {{.from = ends.from,
            .to = ends.to,
            .follow = follow,

@@ -21,7 +21,7 @@ namespace seamwire {
 
 class EmbeddedSurface;
 
-/// A surface with everything that depends on it alone: curvatures, edge adjacency, snap graph.
+/// A surface with everything that depends on it alone: curvatures and edge adjacency.
 ///
 /// Each of these is computed once, on the thread that first needs it. Copies share the surface and everything computed.
 /// Any number of threads may use them at once. If several threads need the same thing, one computes it and the others

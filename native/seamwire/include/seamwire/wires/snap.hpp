@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "seamwire/api.hpp"
-#include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 #include "seamwire/wires/wire.hpp"
@@ -21,15 +20,13 @@ namespace seamwire {
 ///
 /// The path minimizes the sum of two terms. The first is its integral of the distance to the wire. The second is 1/2
 /// (|u| |v| - u v) for any two consecutive edges u and v. The path repeats no vertex. The time is proportional to the
-/// number of faces crossed.
+/// number of faces crossed, except beside vertices with thousands of edges.
 ///
 /// \param surface the surface
-/// \param adjacency the adjacency of the surface
 /// \param wire a wire from one vertex to another
 /// \returns the vertices of the path. Empty if no path of edges connects its ends.
-/// \throws InvalidInput if the wire has no points, does not begin and end at vertices, or its points do not lie in its
-/// faces \throws InvalidInput if the adjacency is of a surface with other numbers of vertices or edges
-SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const EdgeAdjacency& adjacency,
-                                                     const Wire& wire, const Task& = {});
+/// \throws InvalidInput if the wire has no points or does not begin and end at vertices
+/// \throws InvalidInput if its points do not lie in its faces
+SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const Wire& wire, const Task& = {});
 
 }  // namespace seamwire
