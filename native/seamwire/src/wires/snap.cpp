@@ -70,10 +70,12 @@ class Band {
     return edges().size() > n;
   }
   void add_vertex(std::int32_t vertex) {
+    if (vertices_.numbers().empty()) list_loose_edges();
     if (!vertices_.insert(vertex).second) return;
     for_each_leaving(vertex, [&](std::int32_t h) { add_polygon(h / 3); });
-    for (const auto& [a, b] : surface_.loose_edges()) {
-      if (a == vertex || b == vertex) add_edge(a, b);
+    for (auto next = std::ranges::lower_bound(loose_, Edge{vertex, -1}); next != loose_.end() && (*next)[0] == vertex;
+         ++next) {
+      add_edge(vertex, (*next)[1]);
     }
   }
 
@@ -85,6 +87,14 @@ class Band {
     if (found == surface_.edges().end() || *found != edge) return false;
     edges_.insert(static_cast<std::int32_t>(found - surface_.edges().begin()));
     return true;
+  }
+
+  void list_loose_edges() {
+    for (const auto& [a, b] : surface_.loose_edges()) {
+      loose_.push_back({a, b});
+      loose_.push_back({b, a});
+    }
+    std::ranges::sort(loose_);
   }
 
   /// Adds the edges of the polygon that a triangle belongs to: all triangles joined across edges that are not real.
@@ -117,6 +127,7 @@ class Band {
   const Surface& surface_;
   const CornerFans& fans_;
   InsertionMap edges_, triangles_, vertices_;
+  std::vector<Edge> loose_;  // in both directions, ascending; empty until a vertex is added
   std::size_t widened_ = 0;  // edges whose surroundings are there
 };
 
