@@ -37,6 +37,7 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
 namespace seamwire::bench {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "arrays.hpp"
-#include "detail/poll.hpp"
 #include "held.hpp"
 #include "names.hpp"
 #include "picks.hpp"

@@ -4,6 +4,8 @@
 #include <utility>
 #include <variant>
 
+#include "seamwire/wires/snap.hpp"
+
 namespace seamwire::detail {
 
 LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task) {

@@ -106,7 +106,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   std::atomic<double>& fraction = *metrics.fractions[which];
   Prepared prepared{.spec = spec, .surface = surface, .embedded = std::nullopt, .graph = nullptr};
   std::shared_ptr<const EdgeAdjacency> adjacency;
-  // While the other thread is at the curvatures.
+  // The second metric does this while the thread of the first one computes the curvatures.
   if (!on_surface && which == 1) adjacency = context.edge_adjacency(silent);
   context.curvature(silent);
   if (!on_surface && which != 1) adjacency = context.edge_adjacency(silent);

@@ -102,7 +102,7 @@ struct BoxTree {
     }
   }
 
-  /// Calls visit(i) for the items order[i] in boxes that meet a box, until it returns false. Returns whether it never
+  /// Calls visit(i) for the items order[i] in boxes that meet a box, until visit returns false. Returns false if it
   /// did.
   template <class Visit>
   bool visit_in(const Box& within, const Visit& visit) const {

@@ -14,7 +14,7 @@ namespace {
 /// rule of high order.
 constexpr std::size_t kSamples = 8;
 constexpr double kRoom = 1.0 + 1e-9;  // much more than distances are rounded by
-/// Segments near an edge above which each sample looks for its own nearest one.
+/// If an edge has so many segments nearby, each sample searches for its nearest one.
 constexpr std::size_t kManySegments = 64;
 
 double fraction(std::size_t sample) { return (static_cast<double>(sample) + 0.5) / kSamples; }

@@ -27,7 +27,7 @@ using namespace detail;
 
 namespace {
 
-/// The edges that a snapped path may take, growing. They have their numbers in Surface::edges().
+/// The edges that a snapped path may take, growing. Edges are numbered as in Surface::edges().
 class Band {
  public:
   explicit Band(const Surface& surface) : surface_(surface), fans_(corner_fans(surface)) {}
@@ -80,7 +80,7 @@ class Band {
   }
 
  private:
-  /// False if it is no real edge.
+  /// Returns false if the edge is not real.
   bool add_edge(std::int32_t a, std::int32_t b) {
     const Edge edge = ascending(a, b);
     const auto found = std::ranges::lower_bound(surface_.edges(), edge);
@@ -151,7 +151,7 @@ class BandSearch {
     pairs.reserve(2 * edges.size());
     heads_.reserve(2 * edges.size());
     along_.reserve(edges.size());
-    std::ranges::sort(edges);  // so that of paths at the same cost it finds the same one, however the band has grown
+    std::ranges::sort(edges);  // so that it finds the same path among equal ones, whatever their order
     for (const std::int32_t e : edges) {
       const auto& [tail, head] = surface.edges()[e];
       const std::int32_t a = vertices_.insert(tail).first, b = vertices_.insert(head).first;
@@ -196,7 +196,7 @@ class BandSearch {
   /// Of a directed edge: the least cost of a path that ends with it.
   struct State {
     double cost = kInfinity;
-    double least_before = kInfinity;  // of all ways to the edge and onto it that were found
+    double least_before = kInfinity;  // of reaching the edge, and of the turn onto it
     std::int32_t before = -1;         // the directed edge before it in that path; -1: none
     bool is_settled = false;
   };

@@ -15,7 +15,6 @@
 #include "seamwire/metric/metric_spec.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
-#include "seamwire/wires/snap.hpp"
 
 namespace seamwire {
 

@@ -15,8 +15,7 @@ namespace seamwire {
 ///
 /// The path leads from wire.from to wire.to along Surface::edges(). Its edges belong to the polygons that the wire
 /// crosses, and to polygons that share an edge with these. Polygons are triangles joined across edges that are not
-/// real. If these edges do not connect the ends, the polygons around
-/// them are added, ring by ring.
+/// real. If these edges do not connect the ends, the polygons around them are added, ring by ring.
 ///
 /// The path minimizes the sum of two terms. The first is its integral of the distance to the wire. The second is 1/2
 /// (|u| |v| - u v) for any two consecutive edges u and v. The path repeats no vertex. The time is proportional to the
