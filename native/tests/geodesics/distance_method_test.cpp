@@ -26,18 +26,19 @@ namespace {
 
 using paths::index;
 
-/// Distances along edges, by Bellman and Ford. Points must be vertices.
+/// Distances along edges, by Bellman and Ford. A point in a face counts as its nearest corner.
 class SolvedAlongEdges final : public SolvedField {
  public:
   double distance(const SurfacePoint& point, const Task& task) const override {
     task.check(0.0);
-    return distances[index(point.vertex)];
+    return distances[index(vertex_of(point))];
   }
   std::optional<IntrinsicPath> trace(const SurfacePoint& point, const Task& task) const override {
     task.check(0.0);
-    if (std::isinf(distances[index(point.vertex)])) return std::nullopt;
-    IntrinsicPath path{.points = {{.vertex = point.vertex}}, .faces = {}, .length = distances[index(point.vertex)]};
-    for (std::int32_t v = point.vertex; over[index(v)] >= 0;) {
+    const std::int32_t target = vertex_of(point);
+    if (std::isinf(distances[index(target)])) return std::nullopt;
+    IntrinsicPath path{.points = {{.vertex = target}}, .faces = {}, .length = distances[index(target)]};
+    for (std::int32_t v = target; over[index(v)] >= 0;) {
       const std::int32_t h = over[index(v)];
       v = edges->tail(h) == v ? edges->tip(h) : edges->tail(h);
       path.points.push_back({.vertex = v});
@@ -46,6 +47,12 @@ class SolvedAlongEdges final : public SolvedField {
     std::ranges::reverse(path.points);
     std::ranges::reverse(path.faces);
     return path;
+  }
+
+  std::int32_t vertex_of(const SurfacePoint& point) const {
+    if (point.vertex >= 0) return point.vertex;
+    const auto corner = std::ranges::max_element(point.barycentric) - point.barycentric.begin();
+    return edges->triangles[index(point.face)][static_cast<std::size_t>(corner)];
   }
 
   std::shared_ptr<const IntrinsicMesh> edges;
