@@ -322,7 +322,7 @@ void measure(const std::string& file, const Options& options) {
     both.push_back(seconds([&] {
       for (std::size_t which = 0; which < 2; ++which) {
         const Wire wire = trace_wire(*surface, embeddings[which], fields[which], to).value();
-        if (!wire.points.empty()) snap_to_edges(*surface, wire);
+        snap_to_edges(*surface, wire);
       }
     }));
   }
