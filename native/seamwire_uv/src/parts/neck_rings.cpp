@@ -66,7 +66,7 @@ std::optional<std::pair<std::size_t, double>> narrowest(const Rings& rings) {
   std::optional<std::pair<std::size_t, double>> best;
   for (std::size_t i = 1; i + 1 < kLevels; ++i) {
     const double length = rings.lengths[i];
-    if (!(length > 0.0) || rings.areas[i] < tuning::kLeastLimb || rings.areas[i] > tuning::kMostLimb) continue;
+    if (!(length > 0.0) || rings.areas[i] < tuning::kLeastPart || rings.areas[i] > tuning::kMostLimb) continue;
     const double narrow = std::min(before[i], after[i]) / length;
     if (narrow >= tuning::kNeckNarrow && (!best || narrow > best->second)) best = {i, narrow};
   }
@@ -149,7 +149,7 @@ std::vector<NeckRing> find_necks(const SlitProblem& problem, const Task& task) {
   std::vector<NeckRing> found;
   for (std::int32_t p = 0; index(p) < problem.by_piece.size(); ++p) {
     task.check(0.0);
-    if (problem.by_piece[p].area < tuning::kLeastLimb) continue;
+    if (problem.by_piece[p].area < tuning::kLeastPart) continue;
     const PieceBody body(problem, p, task);
     std::vector<std::int32_t> tips = find_tips(problem, body, body.graph.mean_distances(task));
     if (problem.reflection && !problem.reflection->is_exact) {

@@ -537,7 +537,7 @@ void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, const Ta
 
 double PartFinder::Impl::odds_of(std::int32_t edge) const {
   const bool is_panel = !is_between.empty() && is_between[edge] != 0;
-  return is_panel ? std::max(odds[edge], 0.0) + tuning::kPanelOdds : odds[edge];
+  return is_panel ? std::max(odds[edge], 0.0) + tuning::kMostOdds : odds[edge];
 }
 
 /// A region for each polygon.
@@ -650,7 +650,7 @@ std::vector<std::uint8_t> PartFinder::Impl::folds(std::span<const std::int32_t> 
   std::vector<std::uint8_t> may_fold, is_parting;
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
     const double own = odds[e] + bias - (is_marked[e] != 0 ? tuning::kMarked : 0.0);
-    may_fold.push_back(problem.is_seam[e] == 0 && own < tuning::kMostFolded ? 1 : 0);
+    may_fold.push_back(problem.is_seam[e] == 0 && own < tuning::kMostOdds ? 1 : 0);
     const bool is_panel = !is_between.empty() && is_between[e] != 0;
     is_parting.push_back(is_kept[e] != 0 || is_marked[e] != 0 || is_panel ? 1 : 0);
   }

@@ -321,7 +321,7 @@ class Planning {
   static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06;  // shares of all work
 
   bool is_small(std::size_t group) const {
-    return plans_.size() > 1 && groups()[group].searched().mesh->face_count() < tuning::kSmallGroup;
+    return plans_.size() > 1 && groups()[group].searched().mesh->face_count() < tuning::kLeastSimplified;
   }
   const std::vector<GroupProblem>& groups() const { return prepared_.groups; }
 

@@ -80,7 +80,7 @@ inline constexpr double kTurnInPlan = 0.5;
 
 // Machine parts: surfaces whose bending is mostly in sharp edges, and whose other edges hardly bend.
 
-/// Degrees above which the bend of an edge counts as sharp. Rims of regions with sharp edges are such edges too.
+/// Degrees above which the bend of an edge counts as sharp. It also tells garments, figures, and rims of regions.
 inline constexpr double kHardSharp = 30.0;
 /// Degrees below which an edge counts as hardly bent.
 inline constexpr double kHardFlat = 15.0;
@@ -133,7 +133,9 @@ inline constexpr double kMarked = 6.0;
 inline constexpr double kMarkedEverywhere = 0.8;
 /// Price of a cut along an edge that is a border for sure. Without it, any detour along such edges is free.
 inline constexpr double kLeastPrice = 0.05;
-/// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
+/// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists. Edges
+/// between panels have at least as much. No edge with as much is a fold of a net, so that the sides of a cube are islands
+/// at the far end of the scale.
 inline constexpr double kMostOdds = 4.0;
 
 // Polygons: lines of edges. quad_skew.hpp says which triangles count as quads.
@@ -155,8 +157,8 @@ inline constexpr double kPartOnPlane = 2.0;
 inline constexpr double kPartPrice = 0.2;
 /// The same for a part that a single other one surrounds. Caps and buttons have short rims, and artists part them.
 inline constexpr double kEnclosedPrice = 0.05;
-/// Share of the area of its piece below which a part joins a neighbor. Without it, characters get crumbs at ears
-/// and fingers.
+/// Share of the area of its piece below which a part joins a neighbor, and below which there is no limb. Without it,
+/// characters get crumbs at ears and fingers.
 inline constexpr double kLeastPart = 0.003;
 /// Width in diagonals of its piece below which a part may be a step of a chamfer.
 inline constexpr double kLeastPartWidth = 0.008;
@@ -179,8 +181,6 @@ inline constexpr double kMostWithoutImage = 0.05;
 
 // Nets: pieces of flat parts that open as cardboard does.
 
-/// Log odds from which a rim is never a fold of a net. At the far end of the scale, the sides of a cube are islands.
-inline constexpr double kMostFolded = 4.0;
 /// Distance in diagonals of a piece that unfolded triangles may leave between them.
 inline constexpr double kNetGap = 1e-3;
 /// Parts of a piece that opens as a net, at most.
@@ -192,9 +192,7 @@ inline constexpr std::size_t kMostPanels = 24;
 inline constexpr double kLimbReach = 0.6;
 /// Times that rings on both sides of a neck are longer than the neck's own, at least.
 inline constexpr double kNeckNarrow = 1.2;
-/// Share of the surface's area that a limb has at least.
-inline constexpr double kLeastLimb = 3e-3;
-/// And at most. A larger one is the rest of the surface.
+/// Share of the surface's area that a limb has at most. A larger one is the rest of the surface.
 inline constexpr double kMostLimb = 0.5;
 
 // Regions whose rims are cut if slits do not reach the bound. They help cylinders with many corners.
@@ -301,7 +299,8 @@ inline constexpr std::size_t kMostTriangles = 9000;
 /// Triangles that all simplified meshes have together, about.
 inline constexpr std::size_t kSimplified = 11000;
 /// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
-/// smaller itself stays as it is.
+/// smaller itself stays as it is, and is planned on one thread, at the same time as other such groups. Their plans are
+/// shown only once all of them are done.
 inline constexpr std::size_t kLeastSimplified = 600;
 /// Times that a chain of the original mesh is longer than the slit that it follows, at most. A longer chain leads
 /// around something.
@@ -309,9 +308,6 @@ inline constexpr double kDetour = 1.6;
 /// Times that a slit is longer than the straight line between its ends from which on it is followed in parts. A chain
 /// might cut it short otherwise, as it would a loop around a handle.
 inline constexpr double kBent = 2.0;
-/// Triangles of the searched mesh of a group below which the group is planned on one thread, at the same time as other
-/// such groups. Their plans are shown only once all of them are done.
-inline constexpr std::size_t kSmallGroup = 600;
 /// How often a search is repeated because the original mesh distorts more than the simplified one.
 inline constexpr int kRounds = 2;
 /// Budget of a repetition, as a share of the one before.
@@ -377,8 +373,7 @@ inline constexpr double kFigureRange = 100.0;
 
 // Panels: front and back of garments. Lengths are in diagonals of a piece, areas in its area.
 
-/// Degrees that count as sharp, and the share of such edges up to which a piece may be a garment.
-inline constexpr double kGarmentDegrees = 30.0;
+/// Share of sharp edges, by length, up to which a piece may be a garment.
 inline constexpr double kGarmentSharp = 0.15;
 /// Open boundaries of a garment, at least.
 inline constexpr std::int32_t kGarmentBoundaries = 3;
@@ -392,8 +387,6 @@ inline constexpr int kPanelRounds = 4;
 inline constexpr double kLeastPanel = 0.03;
 /// The same as kLeastPart for pieces with panels. Folds beside the border would become scraps.
 inline constexpr double kLeastOfPanels = 0.01;
-/// Least log odds of edges between panels.
-inline constexpr double kPanelOdds = 4.0;
 
 // Scans. Each limit lies in the middle of a gap between artists' meshes, and scans, sculpts and remeshed surfaces, see
 // docs/method/defaults.md.
