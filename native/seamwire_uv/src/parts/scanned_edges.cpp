@@ -7,13 +7,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
+#include "maps/quad_skew.hpp"
 #include "seamwire/errors.hpp"
 #include "tuning/constants.hpp"
 
@@ -56,8 +57,6 @@ class EdgeSigns {
   /// The share of regular vertices inside the mesh, or 1 if all vertices lie on the border. They have six edges, or
   /// four edges beside the diagonals if all their faces are quads.
   double regular() const;
-  /// The share of the area in triangles that lie in a plane with each of their neighbors.
-  double flat() const;
   /// How well edges run along or across the bends of the surface: 1 if all do, 0 if their directions are random, -1 if
   /// all run halfway between. Strong bends count more, and diagonals of quads do not count. It is 1 without bends.
   ///
@@ -68,6 +67,8 @@ class EdgeSigns {
  private:
   void find_hinges();
   void measure(Hinge& hinge) const;
+  /// The quad_skew() of the two triangles, in radians.
+  double skew_of(const Hinge& hinge) const;
   void mark_diagonals(std::span<const std::int32_t> polygons);
   Vector area_normal(std::int32_t face) const {
     const auto& [a, b, c] = triangles_[face];
@@ -111,6 +112,7 @@ void EdgeSigns::find_hinges() {
 }
 
 void EdgeSigns::measure(Hinge& hinge) const {
+  constexpr double kUnbent = 1e-3;  // rounding bends flat faces
   const Vector edge = points_[hinge.end] - points_[hinge.start];
   const Vector here = unit(area_normal(hinge.faces[0]));
   const Triangle& other = triangles_[hinge.faces[1]];
@@ -122,27 +124,33 @@ void EdgeSigns::measure(Hinge& hinge) const {
   hinge.beside = unit((here + there).cross(hinge.along));
   const double angle = 2.0 * std::asin(std::min(0.5 * (there - here).norm(), 1.0));
   const bool is_ridge = here.dot(points_[hinge.tips[1]] - points_[hinge.start]) <= 0.0;
-  if (angle > tuning::kUnbent) hinge.bend = is_ridge ? angle : -angle;
+  if (angle > kUnbent) hinge.bend = is_ridge ? angle : -angle;
+}
+
+double EdgeSigns::skew_of(const Hinge& hinge) const {
+  const std::array<std::int32_t, 4> quad{hinge.start, hinge.tips[0], hinge.end, hinge.tips[1]};
+  const auto away = [&](std::size_t from, std::size_t to) { return Vector(points_[quad[to]] - points_[quad[from]]); };
+  std::array<double, 4> corners{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector next = away(k, (k + 1) % 4), last = away(k, (k + 3) % 4);
+    corners[k] = std::atan2(next.cross(last).norm(), next.dot(last));
+  }
+  return quad_skew(std::abs(hinge.bend), corners, 0.5 * std::numbers::pi);
 }
 
 void EdgeSigns::mark_diagonals(std::span<const std::int32_t> polygons) {
+  constexpr double kMost = kMostSkew * std::numbers::pi / 180.0;
   std::vector<double> skews;
-  std::vector<double> best(triangles_.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> best(triangles_.size(), kMost);
   for (const Hinge& hinge : hinges_) {
-    const std::array<std::int32_t, 4> quad{hinge.start, hinge.tips[0], hinge.end, hinge.tips[1]};
-    std::array<Vector, 4> sides;
-    for (std::size_t k = 0; k < 4; ++k) sides[k] = unit(points_[quad[(k + 1) % 4]] - points_[quad[k]]);
-    double skew = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) skew = std::max(skew, std::abs(sides[k].dot(sides[(k + 3) % 4])));
-    skews.push_back(skew);
-    for (const std::int32_t f : hinge.faces) best[f] = std::min(best[f], skew);
+    skews.push_back(skew_of(hinge));
+    for (const std::int32_t f : hinge.faces) best[f] = std::min(best[f], skews.back());
   }
   // Two triangles are a quad if each is the other's best partner for it.
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     const auto [one, other] = hinges_[h].faces;
     const bool is_inner = !polygons.empty() && polygons[one] == polygons[other];
-    hinges_[h].is_diagonal =
-        is_inner || (skews[h] <= tuning::kQuadSkew && skews[h] <= std::min(best[one], best[other]));
+    hinges_[h].is_diagonal = is_inner || skews[h] <= std::min(best[one], best[other]);
   }
 }
 
@@ -176,20 +184,6 @@ double EdgeSigns::regular() const {
     if (sides[v] == 4) ++of_four;
   }
   return inside == 0 ? 1.0 : static_cast<double>(std::max(of_six, of_four)) / static_cast<double>(inside);
-}
-
-double EdgeSigns::flat() const {
-  std::vector<double> most(triangles_.size(), 0.0);
-  for (const Hinge& hinge : hinges_) {
-    for (const std::int32_t f : hinge.faces) most[f] = std::max(most[f], std::abs(hinge.bend));
-  }
-  double flat = 0.0, all = 0.0;
-  for (std::int32_t f = 0; index(f) < triangles_.size(); ++f) {
-    const double area = area_normal(f).norm();
-    all += area;
-    if (most[f] < tuning::kInPlane) flat += area;
-  }
-  return all > 0.0 ? flat / all : 1.0;
 }
 
 double EdgeSigns::follows() const {
@@ -296,7 +290,7 @@ bool has_scanned_edges(std::span<const Vector> points, std::span<const Triangle>
   const EdgeSigns signs(points, triangles, polygons);
   const double spread = signs.spread();
   if (spread < tuning::kUniform && signs.regular() < tuning::kRegular) return true;
-  return spread < tuning::kUneven && signs.follows() < tuning::kFollows && signs.flat() < tuning::kFlatSides;
+  return spread < tuning::kUneven && signs.follows() < tuning::kFollows;
 }
 
 }  // namespace seamwire

@@ -133,9 +133,9 @@ inline constexpr double kMarked = 6.0;
 inline constexpr double kMarkedEverywhere = 0.8;
 /// Price of a cut along an edge that is a border for sure. Without it, any detour along such edges is free.
 inline constexpr double kLeastPrice = 0.05;
-/// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists. Edges
-/// between panels have at least as much. No edge with as much is a fold of a net, so that the sides of a cube are islands
-/// at the far end of the scale.
+/// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
+/// Edges between panels have at least as much. No edge with as much is a fold of a net, so that the sides of a cube are
+/// islands at the far end of the scale.
 inline constexpr double kMostOdds = 4.0;
 
 // Polygons: lines of edges. quad_skew.hpp says which triangles count as quads.
@@ -404,12 +404,5 @@ inline constexpr double kUniform = 0.33;
 inline constexpr double kRegular = 0.96;
 /// Spread from which on edges are an artist's, even if they do not follow the bends: those of scans reach 0.5.
 inline constexpr double kUneven = 0.6;
-/// Share of the area in flat triangles from which on edges are an artist's, even if they do not follow the bends.
-inline constexpr double kFlatSides = 0.2;
-/// The largest cosine of a corner of a quad: corners have 55 to 125 degrees.
-inline constexpr double kQuadSkew = 0.57;
-/// Angles between triangles, in radians, that do not bend, and that lie in a plane (0.5 degrees).
-inline constexpr double kUnbent = 1e-3;
-inline constexpr double kInPlane = 0.0087;
 
 }  // namespace seamwire::detail::tuning
