@@ -467,7 +467,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds - tuning::kOpenness * openness[e];
     if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
     if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
-    if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees && is_round[e] == 0) odds[e] += on_plane;
+    if (is_on_plane(e) && is_round[e] == 0) odds[e] += on_plane;
     if (is_marked[e] != 0) odds[e] += tuning::kMarked;
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds, task);
@@ -475,7 +475,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
 }
 
 double price_of_cut(double odds) {
-  return std::log1p(std::exp(-std::max(odds, -tuning::kMostOdds))) + tuning::kLeastPrice;
+  return std::log1p(std::exp(-std::max(odds, -tuning::kMostOdds)));
 }
 
 }  // namespace seamwire::detail

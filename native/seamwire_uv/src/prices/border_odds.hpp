@@ -57,7 +57,8 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
-/// `reflection`: null if the mesh is not symmetric. `on_plane`: added where the surface bends over the mirror plane.
+/// `reflection`: null if the mesh is not symmetric. `on_plane`: added on the mirror plane, unless the surface is
+/// round there.
 /// Throws Cancelled.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
@@ -65,7 +66,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
                                 const Task& task);
 
 /// Returns the price of a cut along an edge with these log odds, for each unit of length. It is minus the logarithm of
-/// the probability that the edge is a border, and a little more. Edges inside polygons cost the most.
+/// the probability that the edge is a border. Edges inside polygons cost the most.
 double price_of_cut(double odds);
 
 }  // namespace seamwire::detail

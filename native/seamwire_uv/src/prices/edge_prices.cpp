@@ -242,8 +242,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
       prices.of_edge[e] = is_barred ? kInfinity : std::sqrt(own[e] * own[image]);
     }
   }
-  if (hard > 0.0) prices.bargain = tuning::kBargain / hard;
-  prices.of_slit = tuning::kSlitPrice * (1.0 - tuning::kHardSaving * hard);
+  prices.of_slit = tuning::kSlitPrice;
   prices.turning = length > 0.0 ? tuning::kTurnPrice * mesh.median_length * sum / length : 0.0;
   return prices;
 }

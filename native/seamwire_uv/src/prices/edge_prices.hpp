@@ -47,9 +47,6 @@ struct EdgePrices {
   std::vector<std::uint8_t> is_exposed;  ///< of each vertex: 1 in an exposed place
   double turning = 0.0;                  ///< what a seam pays for a turn by 90 degrees
   double of_slit = 0.0;                  ///< what each slit costs beside its edges, so that there are few long ones
-  /// A slit that gains more energy than this for its price is worth it even below the bound on the energy. That is so
-  /// on machine parts, where sharp edges are nearly free.
-  double bargain = kInfinity;
   double hardness = 0.0;  ///< from 0 for an organic surface to 1 for a machine part
 
   bool is_machine_part() const { return hardness >= 0.5; }

@@ -396,9 +396,7 @@ class Search {
   /// The gain of a plan over another one, down to a bound on the energy, divided by the additional cost.
   double gain_ratio(const SlitPlan& before, const Trial& after, double bound) const {
     const double price = std::max(after.price - before.price, 0.0) + tuning::kChoicePrice * problem_.prices.of_slit;
-    const double whole = (before.energy - after.energy) / price;
-    return whole > problem_.prices.bargain ? whole
-                                           : std::max(before.energy - std::max(after.energy, bound), 0.0) / price;
+    return std::max(before.energy - std::max(after.energy, bound), 0.0) / price;
   }
 
   bool grow_once(SlitPlan& plan, double bound, bool is_thorough) {
@@ -504,7 +502,7 @@ class Search {
       SlitPlan result = cut_back(plan, order[i], cutback.share(), own);
       const double work = result.work, saved = plan.price - result.price;
       const double ratio = saved / std::max(result.energy - plan.energy, 1e-4);
-      if (is_within(result) && saved > 0.0 && ratio * problem_.prices.bargain > 1.0) {
+      if (is_within(result) && saved > 0.0) {
         cutback.ratio = ratio;
         cutback.plan = std::move(result);
       } else {
@@ -537,7 +535,7 @@ class Search {
   }
 
   /// The slits that cost most for what they gain, without those that others need.
-  std::vector<std::size_t> worst_bargains(const SlitPlan& plan) {
+  std::vector<std::size_t> worst_slits(const SlitPlan& plan) {
     std::vector<std::size_t> free;
     for (std::size_t k = 0; k < plan.slits.size(); ++k) {
       if (without_slit(plan.slits, k).size() < plan.slits.size()) free.push_back(k);
@@ -565,7 +563,7 @@ class Search {
         plan;  // NOLINT(performance-unnecessary-copy-initialization): `plan` is replaced by better ones
     if (is_spent()) return false;
     std::size_t tries = 0;
-    for (const std::size_t k : worst_bargains(before)) {
+    for (const std::size_t k : worst_slits(before)) {
       if (tries++ == tuning::kExchanges || is_spent()) return false;
       SlitPlan next = solver_.solve(without_slit(before.slits, k), own_task());
       steps_ += next.work;

@@ -22,9 +22,9 @@ struct SlitGoal {
 ///
 /// It starts from a solved tree of slits. While the energy is above the bound, it adds the slit that lowers it most for
 /// its price, out of several that lead to where the map is distorted. Then it shortens and removes slits while the
-/// bound holds, those first that save most for what they cost in energy. At last it takes away the slits that are the
-/// worst bargain and looks for others in their place. The work is bounded by a number of steps, not by a time, so that
-/// the result is the same on every machine.
+/// bound holds, those first that save most for what they cost in energy. At last it takes away the worst slits and
+/// looks for others in their place. The work is bounded by a number of steps, not by a time, so that the result is the
+/// same on every machine.
 ///
 /// `roots`: as cut_of(). `found` is called with the start and with every better plan, on the calling thread. Returns
 /// the best plan: the cheapest within the bound, or the one with the least energy if none is. Its work includes that of

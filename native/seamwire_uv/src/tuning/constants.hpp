@@ -66,11 +66,6 @@ inline constexpr double kSharpWidth = 35.0;
 
 /// Price of each slit. Without it, tiny slits beside the cut win.
 inline constexpr double kSlitPrice = 0.04;
-/// Share of this price that machine parts save, because they have more and shorter seams.
-inline constexpr double kHardSaving = 0.75;
-/// Gain of energy for a price that is worth a slit below the bound on machine parts, where sharp edges are nearly
-/// free.
-inline constexpr double kBargain = 0.15;
 /// Price of a turn by 90 degrees, in median edges at the mean price. Artists' seams go straight on at nearly all
 /// regular vertices.
 inline constexpr double kTurnPrice = 1.5;
@@ -125,14 +120,10 @@ inline constexpr double kSharperBy = 5.0;
 inline constexpr double kConcave = 1.0;
 /// Degrees from which a concave edge is a crease.
 inline constexpr double kConcaveDegrees = 20.0;
-/// Degrees from which an edge on the mirror plane gets more log odds. A flat place has no border there.
-inline constexpr double kOnPlaneDegrees = 10.0;
 /// Added where an artist expects a border. It is enough to make a border of a flat edge.
 inline constexpr double kMarked = 6.0;
 /// Share of the inner edges of a piece above which marks are everywhere, and say nothing.
 inline constexpr double kMarkedEverywhere = 0.8;
-/// Price of a cut along an edge that is a border for sure. Without it, any detour along such edges is free.
-inline constexpr double kLeastPrice = 0.05;
 /// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
 /// Edges between panels have at least as much. No edge with as much is a fold of a net, so that the sides of a cube are
 /// islands at the far end of the scale.
