@@ -45,17 +45,6 @@ double flat_share(const PlanMesh& mesh, std::span<const FaceFrame> frames, const
   return all > 0.0 ? flat / all : 1.0;
 }
 
-/// The share of all bending in sharp edges; 1 on a surface that does not bend.
-double sharp_share(const PlanMesh& mesh, const EdgeBends& bends) {
-  double sharp = 0.0, all = 0.0;
-  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
-    const double bend = mesh.lengths[e] * std::abs(bends.own[e]);
-    all += bend;
-    if (std::abs(bends.own[e]) > tuning::kHardSharp) sharp += bend;
-  }
-  return all > 0.0 ? sharp / all : 1.0;
-}
-
 }  // namespace
 
 bool is_round(const PlanMesh& mesh, std::span<const FaceFrame> frames, const PieceSizes& sizes, const Task& task) {

@@ -258,7 +258,7 @@ std::vector<std::uint8_t> find_garments(const PlanMesh& mesh, const Polygons& po
       boundaries[piece] += loops.join(mesh.tail(h), mesh.tip(h)) ? 0 : 1;  // the last edge of each loop
     } else if (polygons.is_diagonal[e] == 0) {
       all[piece] += mesh.lengths[e];
-      if (std::abs(bends.own[e]) > tuning::kHardSharp) sharp[piece] += mesh.lengths[e];
+      if (std::abs(bends.own[e]) > tuning::kSharpDegrees) sharp[piece] += mesh.lengths[e];
     }
   }
   std::vector<std::uint8_t> found;

@@ -570,7 +570,7 @@ bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::
 
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces, const Task& task) {
   std::vector<std::uint8_t> is_marked(problem.mesh->edge_count(), 0);
-  for (const double degrees : {tuning::kFlatBelow, tuning::kHardSharp}) {
+  for (const double degrees : {tuning::kFlatBelow, tuning::kSharpDegrees}) {
     mark_rims(problem, pieces, degrees, is_marked, task);
   }
   return slits_along(*problem.mesh, is_marked);

@@ -442,6 +442,16 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
   return found;
 }
 
+double sharp_share(const PlanMesh& mesh, const EdgeBends& bends) {
+  double sharp = 0.0, all = 0.0;
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+    const double bend = mesh.lengths[e] * std::abs(bends.own[e]);
+    all += bend;
+    if (std::abs(bends.own[e]) > tuning::kSharpDegrees) sharp += bend;
+  }
+  return all > 0.0 ? sharp / all : 0.0;
+}
+
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
                                 std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
@@ -474,8 +484,6 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   return odds;
 }
 
-double price_of_cut(double odds) {
-  return std::log1p(std::exp(-std::max(odds, -tuning::kMostOdds)));
-}
+double price_of_cut(double odds) { return std::log1p(std::exp(-std::max(odds, -tuning::kMostOdds))); }
 
 }  // namespace seamwire::detail

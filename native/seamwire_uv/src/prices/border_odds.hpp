@@ -53,6 +53,9 @@ PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frame
 EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
                            const PieceSizes& sizes, const Task& task);
 
+/// The share of all bending that is in sharp edges; 0 on a surface that does not bend.
+double sharp_share(const PlanMesh& mesh, const EdgeBends& bends);
+
 /// The log odds of each edge of being a border between parts, up to a constant that says how many parts there are;
 /// -infinity inside polygons.
 ///

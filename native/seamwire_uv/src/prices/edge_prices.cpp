@@ -181,20 +181,14 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
   return prices;
 }
 
-/// From 0 for an organic surface to 1 for a machine part: how much of its bending is in sharp edges, where most other
-/// edges hardly bend. The latter tells machine parts from organic surfaces of few triangles.
-double hardness(const PlanMesh& mesh, std::span<const double> bends) {
-  double sharp = 0.0, bending = 0.0, flat = 0.0, length = 0.0;
-  for (std::size_t e = 0; e < bends.size(); ++e) {
-    const double amount = mesh.lengths[e] * std::abs(bends[e]);
-    bending += amount;
+/// Whether most edges of a surface hardly bend, by length. The others of a low-poly animal do.
+bool is_mostly_flat(const PlanMesh& mesh, const EdgeBends& bends) {
+  double flat = 0.0, length = 0.0;
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
     length += mesh.lengths[e];
-    if (std::abs(bends[e]) > tuning::kHardSharp) sharp += amount;
-    if (std::abs(bends[e]) < tuning::kHardFlat) flat += mesh.lengths[e];
+    if (std::abs(bends.own[e]) < tuning::kFlatDegrees) flat += mesh.lengths[e];
   }
-  if (!(bending > 0.0)) return 0.0;
-  return ramp(sharp / bending, tuning::kHardFrom, tuning::kHardWidth) *
-         ramp(flat / length, tuning::kHardFlatFrom, tuning::kHardFlatWidth);
+  return 2.0 * flat > length;
 }
 
 }  // namespace
@@ -214,19 +208,19 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
                                                reflection ? &*reflection : nullptr, tuning::kSlitOnPlane, task);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
   // On machine parts sharp edges hide seams on every side, and no place is exposed.
-  const double hard = prices.hardness = hardness(mesh, bends.own);
+  prices.is_machine_part = sharp_share(mesh, bends) > tuning::kMostSharp && is_mostly_flat(mesh, bends);
   for (const double open : prices.visibility) {
-    prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && !prices.is_machine_part() ? 1 : 0);
+    prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && !prices.is_machine_part ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
   const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
-    const double seen = 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
+    const bool is_hidden = prices.is_machine_part && std::abs(bends.own[e]) > tuning::kSharpDegrees;
+    const double seen = is_hidden ? 1.0 : 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
-    const double sharpness = ramp(std::abs(bends.own[e]), tuning::kSharpFrom, tuning::kSharpWidth);
-    const double price = mesh.lengths[e] * std::pow(seen, 1.0 - hard * sharpness) * shapes[e] * weight;
+    const double price = mesh.lengths[e] * seen * shapes[e] * weight;
     prices.of_edge.push_back(mesh.is_real[e] == 0 || !std::isfinite(price) ? kInfinity : price);
     if (prices.of_edge.back() == kInfinity) continue;
     sum += price;

@@ -47,9 +47,7 @@ struct EdgePrices {
   std::vector<std::uint8_t> is_exposed;  ///< of each vertex: 1 in an exposed place
   double turning = 0.0;                  ///< what a seam pays for a turn by 90 degrees
   double of_slit = 0.0;                  ///< what each slit costs beside its edges, so that there are few long ones
-  double hardness = 0.0;  ///< from 0 for an organic surface to 1 for a machine part
-
-  bool is_machine_part() const { return hardness >= 0.5; }
+  bool is_machine_part = false;          ///< most of the bending is in sharp edges, and most edges hardly bend
 };
 
 /// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away. Throws Cancelled.

@@ -149,7 +149,7 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
     if (round > 0 && std::isfinite(result_.energy)) return;
     // Only machine parts have rims. On others, these would enclose scales and wrinkles. But slits alone may be too few
     // where the weights keep seams away.
-    if (round == 0 && !problem().prices.is_machine_part() && !has_barred_edges(problem())) continue;
+    if (round == 0 && !problem().prices.is_machine_part && !has_barred_edges(problem())) continue;
     std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_, task)
                                         : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
     if (cuts.empty()) continue;

@@ -57,10 +57,6 @@ inline constexpr double kRidgeSaving = 0.75;
 inline constexpr double kSlitOnPlane = 1.0;
 /// Log odds up to which an edge costs as in a flat place.
 inline constexpr double kFlatOdds = -1.9;
-/// Degrees from which an edge of a machine part counts as sharp, so that it hides a seam on every side.
-inline constexpr double kSharpFrom = 25.0;
-/// By how many more degrees it counts fully as sharp.
-inline constexpr double kSharpWidth = 35.0;
 
 // Price of a slit, beside its edges.
 
@@ -73,21 +69,15 @@ inline constexpr double kTurnPrice = 1.5;
 /// a trunk was cut elsewhere than by its artist.
 inline constexpr double kTurnInPlan = 0.5;
 
-// Machine parts: surfaces whose bending is mostly in sharp edges, and whose other edges hardly bend.
+// Kinds of shapes: machine parts, figures and garments.
 
-/// Degrees above which the bend of an edge counts as sharp. It also tells garments, figures, and rims of regions.
-inline constexpr double kHardSharp = 30.0;
-/// Degrees below which an edge counts as hardly bent.
-inline constexpr double kHardFlat = 15.0;
-/// Share of all bending in sharp edges from which on a surface is a machine part.
-inline constexpr double kHardFrom = 0.35;
-/// By how much more it is one fully.
-inline constexpr double kHardWidth = 0.25;
-/// Share of the edges' length that is hardly bent, from which on it is one. It excludes organic surfaces of few
-/// triangles.
-inline constexpr double kHardFlatFrom = 0.45;
-/// By how much more it is one fully.
-inline constexpr double kHardFlatWidth = 0.15;
+/// Degrees above which the bend of an edge counts as sharp. Rims of regions with sharp edges are such edges too.
+inline constexpr double kSharpDegrees = 30.0;
+/// Share of all bending in sharp edges up to which an artist's mesh may be a figure. With more of it, a surface is a
+/// machine part if most of its edges hardly bend. Heads have up to 0.47.
+inline constexpr double kMostSharp = 0.5;
+/// Degrees below which an edge hardly bends. Most edges of an animal of few triangles bend more.
+inline constexpr double kFlatDegrees = 15.0;
 
 // Log odds of an edge of being a border between parts. They are hand-made, after the features that a learned
 // model used most.
@@ -342,9 +332,8 @@ inline constexpr double kSmallestLimb = 0.0015;
 inline constexpr double kMostFlat = 0.08;
 /// Triangles from which a mesh is a sculpt: artists' game models have fewer.
 inline constexpr std::size_t kLeastSculpt = 20000;
-/// Share of the bending in sharp edges up to which a mesh of an artist is a figure, and share of the area that its rims
-/// leave in one part. Heads have up to 0.47 and at least 0.95; a prop whose bending is as soft has 0.87.
-inline constexpr double kMostSharp = 0.5;
+/// Share of the area that the rims of a figure leave in one part. Heads have at least 0.95; a prop whose bending is as
+/// soft has 0.87.
 inline constexpr double kLeastBody = 0.95;
 /// Number of polygons up to which a mesh is coarse, and share of triangles up to which it is made of quads.
 inline constexpr std::size_t kMostCoarse = 1000;
