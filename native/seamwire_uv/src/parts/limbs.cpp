@@ -351,7 +351,7 @@ void join_exposed(const PlanMesh& mesh, std::span<const double> open, std::vecto
       View& border = borders[ascending(of_face[h / 3], of_face[twin / 3])];
       border.length += mesh.lengths[e];
       const double own = 0.5 * (open[mesh.tail(h)] + open[mesh.tip(h)]);
-      if (own >= tuning::kExposed + tuning::kExposedWidth) border.exposed += mesh.lengths[e];
+      if (own >= tuning::kExposed) border.exposed += mesh.lengths[e];
     }
     const auto share = [](const auto& pair) {
       const View& border = pair.second;

@@ -457,8 +457,7 @@ void PartFinder::Impl::prepare(const Task& task) {
     take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
   }
   bends = bends_over_edges(mesh, frames, polygons, sizes, task);
-  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(),
-                     tuning::kPartOnPlane, task);
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), task);
   regions = regions_of(polygons, task);
   if (options.by == PartsBy::kShape) {
     if (!options.is_scan) options.is_scan = has_scanned_edges(mesh.points, mesh.triangles, polygons.of_face);

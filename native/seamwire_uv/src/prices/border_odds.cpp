@@ -454,7 +454,7 @@ double sharp_share(const PlanMesh& mesh, const EdgeBends& bends) {
 
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
                                 const Task& task) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
@@ -477,7 +477,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds - tuning::kOpenness * openness[e];
     if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
     if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
-    if (is_on_plane(e) && is_round[e] == 0) odds[e] += on_plane;
+    if (is_on_plane(e) && is_round[e] == 0) odds[e] += tuning::kOnPlane;
     if (is_marked[e] != 0) odds[e] += tuning::kMarked;
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds, task);

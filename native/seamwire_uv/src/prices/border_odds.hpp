@@ -60,12 +60,11 @@ double sharp_share(const PlanMesh& mesh, const EdgeBends& bends);
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
-/// `reflection`: null if the mesh is not symmetric. `on_plane`: added on the mirror plane, unless the surface is
-/// round there.
+/// `reflection`: null if the mesh is not symmetric.
 /// Throws Cancelled.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
                                 const Task& task);
 
 /// Returns the price of a cut along an edge with these log odds, for each unit of length. It is minus the logarithm of

@@ -117,8 +117,6 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
 
 namespace {
 
-double ramp(double value, double from, double width) { return std::clamp((value - from) / width, 0.0, 1.0); }
-
 /// Values divided by their mean over the area.
 std::vector<double> normalized(std::vector<double> values, std::span<const double> areas) {
   double sum = 0.0, total = 0.0;
@@ -157,8 +155,7 @@ namespace {
 /// The price of a place, by its visibility.
 double price_at(double open) {
   const double seen = tuning::kHidden + (1.0 - tuning::kHidden) * std::pow(open, 3);
-  const double exposed = ramp(open, tuning::kExposed, tuning::kExposedWidth);
-  return seen * (1.0 + tuning::kExposedPrice * exposed * exposed);
+  return open >= tuning::kExposed ? tuning::kExposedPrice * seen : seen;
 }
 
 /// The price of a seam along each edge for its length, by the shape of the surface. It is 1 in a flat place.
@@ -204,13 +201,13 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   // Openness is in the price of a place, so it must not count twice.
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
-  const std::vector<double> odds = border_odds(mesh, polygons, sizes, bends, even, none,
-                                               reflection ? &*reflection : nullptr, tuning::kSlitOnPlane, task);
+  const std::vector<double> odds =
+      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, task);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
   // On machine parts sharp edges hide seams on every side, and no place is exposed.
   prices.is_machine_part = sharp_share(mesh, bends) > tuning::kMostSharp && is_mostly_flat(mesh, bends);
   for (const double open : prices.visibility) {
-    prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && !prices.is_machine_part ? 1 : 0);
+    prices.is_exposed.push_back(open >= tuning::kExposed && !prices.is_machine_part ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
   const Poll poll(task);

@@ -39,12 +39,10 @@ inline constexpr double kFrontShare = 0.7;
 /// Price of a place that nobody sees, in that of an average place. With 0.12, seams were longer and crossed the
 /// middle of wings.
 inline constexpr double kHidden = 0.25;
-/// Visibility from which a place is exposed: a little above the mean, where the eyes, nose and lips of a head are.
-inline constexpr double kExposed = 1.1;
-/// By how much more visibility a place is fully exposed.
-inline constexpr double kExposedWidth = 0.35;
+/// Visibility from which a place is exposed: above the mean, where the eyes, nose and lips of a head are.
+inline constexpr double kExposed = 1.275;
 /// Times that an exposed place costs more. Without it, slits ran through eyes and noses.
-inline constexpr double kExposedPrice = 8.0;
+inline constexpr double kExposedPrice = 9.0;
 
 // Price of an edge, by the shape of the surface.
 
@@ -52,9 +50,6 @@ inline constexpr double kExposedPrice = 8.0;
 inline constexpr double kRidgeCurvature = 30.0;
 /// Share of the price that such a rim saves. Artists cut thin parts along their rims.
 inline constexpr double kRidgeSaving = 0.75;
-/// Log odds for edges on the mirror plane. This is half of kPartOnPlane, because paths on the plane pay half
-/// already.
-inline constexpr double kSlitOnPlane = 1.0;
 /// Log odds up to which an edge costs as in a flat place.
 inline constexpr double kFlatOdds = -1.9;
 
@@ -110,6 +105,8 @@ inline constexpr double kSharperBy = 5.0;
 inline constexpr double kConcave = 1.0;
 /// Degrees from which a concave edge is a crease.
 inline constexpr double kConcaveDegrees = 20.0;
+/// Added on the mirror plane, unless the surface is round there. It was the strongest feature of a learned model.
+inline constexpr double kOnPlane = 2.0;
 /// Added where an artist expects a border. It is enough to make a border of a flat edge.
 inline constexpr double kMarked = 6.0;
 /// Share of the inner edges of a piece above which marks are everywhere, and say nothing.
@@ -132,8 +129,6 @@ inline constexpr double kMostTurn = 50.0;
 inline constexpr double kBiasToOne = 1.2;
 /// Log odds that are added from the middle of the scale to its other end, where all sharp edges are borders.
 inline constexpr double kBiasToSharp = 2.2;
-/// Log odds for edges on the mirror plane. It was the strongest feature of a learned model.
-inline constexpr double kPartOnPlane = 2.0;
 /// Price of a part, in diagonals of its piece. A lower price gives more parts.
 inline constexpr double kPartPrice = 0.2;
 /// The same for a part that a single other one surrounds. Caps and buttons have short rims, and artists part them.
