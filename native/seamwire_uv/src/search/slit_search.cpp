@@ -61,7 +61,7 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
                std::size_t count, std::vector<std::int32_t>& chosen) {
   std::vector<std::int32_t> maxima;
   for (std::int32_t v = 0; index(v) < values.size(); ++v) {
-    if (!(values[v] > 0.0) || !(from_cut[v] > tuning::kNearCut) || !std::isfinite(from_cut[v])) continue;
+    if (!(values[v] > 0.0) || !(from_cut[v] > tuning::kApart) || !std::isfinite(from_cut[v])) continue;
     const bool is_highest = std::ranges::all_of(
         mesh.all_neighbors[v], [&](const PlanNeighbor& next) { return values[next.vertex] <= values[v]; });
     if (is_highest) maxima.push_back(v);
@@ -70,7 +70,7 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
   for (const std::int32_t v : maxima) {
     if (count == 0) return;
     const bool is_apart = std::ranges::all_of(
-        chosen, [&](std::int32_t other) { return (mesh.points[v] - mesh.points[other]).norm() > tuning::kPeaksApart; });
+        chosen, [&](std::int32_t other) { return (mesh.points[v] - mesh.points[other]).norm() > tuning::kApart; });
     if (!is_apart) continue;
     chosen.push_back(v);
     --count;
@@ -87,22 +87,6 @@ std::vector<double> distances_from_cut(const PlanMesh& mesh, std::span<const std
   return edge_distances(mesh, cut, task);
 }
 
-/// Adds the most distorted vertex around the end of each slit.
-void add_ahead(const PlanMesh& mesh, const SlitPlan& plan, std::span<const double> values,
-               std::span<const double> from_cut, std::vector<std::int32_t>& chosen) {
-  for (const Slit& slit : plan.slits) {
-    if (slit.is_needed) continue;
-    const Vector& end = mesh.points[slit.path.back()];
-    std::int32_t best = -1;
-    for (std::int32_t v = 0; index(v) < values.size(); ++v) {
-      const bool is_ahead = from_cut[v] > tuning::kAheadOfCut && std::isfinite(from_cut[v]) &&
-                            (mesh.points[v] - end).norm() < tuning::kAheadOfEnd;
-      if (is_ahead && (best < 0 || values[v] > values[best])) best = v;
-    }
-    if (best >= 0) chosen.push_back(best);
-  }
-}
-
 }  // namespace
 
 std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const SlitPlan& plan,
@@ -117,18 +101,10 @@ std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const Sli
     for (std::size_t v = 0; v < amounts.size(); ++v) amounts[v] = around[v] > 0.0 ? amounts[v] / around[v] : 0.0;
     return amounts;
   };
-  const std::vector<double> close = density(tuning::kClosePeak), wide = density(tuning::kWidePeak);
-  std::vector<double> finite(from_cut), weighted(from_cut.size());
-  for (std::size_t v = 0; v < finite.size(); ++v) {
-    if (!std::isfinite(finite[v])) finite[v] = 0.0;
-    weighted[v] = finite[v] * wide[v];
-  }
   std::vector<std::int32_t> chosen;
-  add_peaks(mesh, close, from_cut, tuning::kClosePeaks, chosen);
-  add_peaks(mesh, wide, from_cut, tuning::kWidePeaks, chosen);
-  add_peaks(mesh, weighted, from_cut, tuning::kFarPeaks, chosen);
-  add_peaks(mesh, finite, from_cut, tuning::kFarthest, chosen);
-  add_ahead(mesh, plan, close, from_cut, chosen);
+  add_peaks(mesh, density(tuning::kClosePeak), from_cut, tuning::kClosePeaks, chosen);
+  add_peaks(mesh, density(tuning::kWidePeak), from_cut, tuning::kWidePeaks, chosen);
+  add_peaks(mesh, from_cut, from_cut, tuning::kFarthest, chosen);
   return chosen;
 }
 
@@ -375,7 +351,7 @@ class Search {
         v = problem_.reflection->images[v];
       }
       const bool is_new = std::ranges::all_of(
-          ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > tuning::kSameCandidate; });
+          ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > tuning::kApart; });
       if (is_new && cut.is_on_cut[v] == 0) ends.push_back(v);
     }
     std::vector<Slit> found;

@@ -215,27 +215,18 @@ inline constexpr double kWidePeak = 0.15;
 inline constexpr std::size_t kClosePeaks = 4;
 /// Candidates of the second kind.
 inline constexpr std::size_t kWidePeaks = 3;
-/// Candidates that are far from the cut and distorted.
-inline constexpr std::size_t kFarPeaks = 2;
 /// Candidates that join a hole with the next boundary loop.
 inline constexpr std::size_t kJoins = 3;
 /// Candidates that are farthest from the cut. Without them, a surface with a tiny boundary was stuck at an energy
 /// of 5.9.
 inline constexpr std::size_t kFarthest = 2;
-/// Distance from the cut below which there is no peak, because a slit to it would be a crumb.
-inline constexpr double kNearCut = 0.07;
-/// Distance below which two peaks are one.
-inline constexpr double kPeaksApart = 0.1;
-/// Distance from the end of a slit within which its most distorted place is a candidate.
-inline constexpr double kAheadOfEnd = 0.2;
-/// Distance that such a place has from the cut, at least.
-inline constexpr double kAheadOfCut = 0.04;
+/// Distance below which two candidates are one, and below which there is no peak near the cut. A slit to it would be a
+/// crumb.
+inline constexpr double kApart = 0.07;
 /// Energy of a triangle above 4 that counts at most, so that one collapsed triangle does not hide all other peaks.
 inline constexpr double kMostExcess = 50.0;
 /// Places all over the surface that are tried if no likely one helps.
 inline constexpr std::size_t kThoroughPlaces = 48;
-/// Distance below which slits to two places are one candidate.
-inline constexpr double kSameCandidate = 0.03;
 
 // The search: it adds slits, shortens them, and exchanges them.
 
