@@ -32,9 +32,8 @@ struct SlitGoal {
 SlitPlan search_slits(const SlitProblem& problem, SlitPlan start, std::vector<std::int32_t> roots, const SlitGoal& goal,
                       const std::function<void(const SlitPlan&)>& found, const Task& task);
 
-/// Vertices to which a further slit might lead. The map is distorted most there, close around them or farther around, or
-/// the cut is farthest away. None is near the cut.
-/// `is_on_cut`: 1 at the vertices of the cut. Throws Cancelled.
+/// Vertices to which a further slit might lead. The map is distorted most there, close around them or farther around,
+/// or the cut is farthest away. None is near the cut. `is_on_cut`: 1 at the vertices of the cut. Throws Cancelled.
 std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const SlitPlan& plan,
                                            std::span<const std::uint8_t> is_on_cut, const Task& task);
 
