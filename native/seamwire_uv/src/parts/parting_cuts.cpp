@@ -151,7 +151,7 @@ class Halving {
       images_.emplace_back(k, own[image / 3]);
       images_.emplace_back(other, own[twin / 3]);
     });
-    is_mirrored_ = static_cast<double>(without) <= tuning::kMostWithoutImage * static_cast<double>(with);
+    is_mirrored_ = static_cast<double>(with) >= tuning::kExactImages * static_cast<double>(with + without);
     return is_mirrored_ && with > 0;
   }
 

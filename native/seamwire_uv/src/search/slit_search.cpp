@@ -102,9 +102,9 @@ std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const Sli
     return amounts;
   };
   std::vector<std::int32_t> chosen;
-  add_peaks(mesh, density(tuning::kClosePeak), from_cut, tuning::kClosePeaks, chosen);
-  add_peaks(mesh, density(tuning::kWidePeak), from_cut, tuning::kWidePeaks, chosen);
-  add_peaks(mesh, from_cut, from_cut, tuning::kFarthest, chosen);
+  add_peaks(mesh, density(tuning::kClosePeak), from_cut, tuning::kOfEachKind, chosen);
+  add_peaks(mesh, density(tuning::kWidePeak), from_cut, tuning::kOfEachKind, chosen);
+  add_peaks(mesh, from_cut, from_cut, tuning::kOfEachKind, chosen);
   return chosen;
 }
 
@@ -153,7 +153,7 @@ class JoinFinder {
     std::vector<Slit> slits;
     std::vector<std::uint8_t> is_done(loops_.size(), 0);
     for (const Hole& hole : holes_) {
-      if (slits.size() == tuning::kJoins) break;
+      if (slits.size() == tuning::kOfEachKind) break;
       if (std::exchange(is_done[hole.loop], 1) != 0) continue;
       std::optional<Slit> slit = join(hole.loop);
       if (!slit) continue;

@@ -137,7 +137,7 @@ std::int32_t onto_plane(const SlitProblem& problem, const PieceBody& body, std::
   const Reflection& reflection = *problem.reflection;
   if (reflection.sides[tip] == 0) return tip;
   std::int32_t nearest = tip;
-  double least = tuning::kTipToPlane * body.size;
+  double least = tuning::kApart * body.size;
   for (const std::int32_t v : body.island.vertices) {
     if (reflection.sides[v] != 0) continue;
     const double distance = (problem.mesh->points[v] - problem.mesh->points[tip]).norm();
@@ -723,11 +723,11 @@ class TreeGrowth {
     }
   }
 
-  /// A piece with hardly any cut gets a slit to the point farthest from its cut. Without tips only a closed one does.
+  /// A closed piece without a cut gets a slit to the point farthest from its root.
   void lengthen_short_cut(std::int32_t number) {
     const State& state = states_[number];
     const PieceBody& body = state.body;
-    if (goal_.has_tips ? state.cut_length >= tuning::kLeastCut * body.size : state.cut_length > 0.0) return;
+    if (state.cut_length > 0.0) return;
     const SlitFinder finder = finder_in(index(number));
     const std::vector<double> away = edge_distances(*problem_.mesh, state.vertices, task_);
     std::int32_t farthest = -1;

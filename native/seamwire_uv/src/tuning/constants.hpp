@@ -20,8 +20,8 @@ inline constexpr double kNearImage = 0.012;
 inline constexpr double kCoarseImage = 0.75;
 /// Share of the area that has to correspond on a symmetric surface.
 inline constexpr double kLeastSymmetric = 0.9;
-/// Share of the edges whose images are edges from which on a mesh counts as mirrored edge by edge. It has the value of
-/// the prototype.
+/// Share of the edges whose images are edges from which on a mesh or a piece counts as mirrored edge by edge. It has
+/// the value of the prototype.
 inline constexpr double kExactImages = 0.95;
 
 // Visibility of places: how much of the front and of the sky sees a vertex.
@@ -152,8 +152,6 @@ inline constexpr double kAlikeAreas = 0.01;
 inline constexpr double kLeastHalf = 0.2;
 /// Shares of the area of a piece that are given to both halves before the cheapest cut between them is found.
 inline constexpr std::array<double, 3> kSeedShares{0.2, 0.3, 0.4};
-/// Edges without a mirror image, for each edge with one, up to which a piece is cut symmetrically.
-inline constexpr double kMostWithoutImage = 0.05;
 
 // Nets: pieces of flat parts that open as cardboard does.
 
@@ -184,11 +182,6 @@ inline constexpr double kFlatBelow = 1.5;
 
 /// Height by which the tip of a limb stands out in mean distance. Lower bumps get no slit of the tree.
 inline constexpr double kTipProminence = 0.08;
-/// Distance from the mirror plane below which a tip is moved onto it. Otherwise a back gets two parallel slits.
-inline constexpr double kTipToPlane = 0.07;
-/// Length of tree and boundary below which a piece gets one more slit. A ball, which has no limbs, would have
-/// hardly any cut.
-inline constexpr double kLeastCut = 0.6;
 /// Times that closed lines of edges cost more than the cheapest cut through all handles, at most. Along a line, a seam
 /// goes straight on at every vertex.
 inline constexpr double kLineDetour = 1.5;
@@ -211,17 +204,11 @@ inline constexpr double kMirrorSpread = 0.02;
 inline constexpr double kClosePeak = 0.05;
 /// The same for peaks of whole regions.
 inline constexpr double kWidePeak = 0.15;
-/// Candidates of the first kind.
-inline constexpr std::size_t kClosePeaks = 4;
-/// Candidates of the second kind.
-inline constexpr std::size_t kWidePeaks = 3;
-/// Candidates that join a hole with the next boundary loop.
-inline constexpr std::size_t kJoins = 3;
-/// Candidates that are farthest from the cut. Without them, a surface with a tiny boundary was stuck at an energy
-/// of 5.9.
-inline constexpr std::size_t kFarthest = 2;
+/// Candidates of each kind: at close peaks, at wide ones, farthest from the cut, and from holes to the next boundary
+/// loop. Without the farthest, a surface with a tiny boundary was stuck at an energy of 5.9.
+inline constexpr std::size_t kOfEachKind = 3;
 /// Distance below which two candidates are one, and below which there is no peak near the cut. A slit to it would be a
-/// crumb.
+/// crumb. A tip that is nearer to the mirror plane is moved onto it, or a back gets two parallel slits.
 inline constexpr double kApart = 0.07;
 /// Energy of a triangle above 4 that counts at most, so that one collapsed triangle does not hide all other peaks.
 inline constexpr double kMostExcess = 50.0;
