@@ -92,7 +92,7 @@ LimbField limb_field(std::span<const LimbFace> faces, std::span<const LimbLink> 
     const double bend = is_concave ? angle : 0.0;
     const double resistance = (distance + tuning::kLimbConcavity * bend) / std::max(length, kLeastLength);
     conductances.push_back(1.0 / resistance);
-    const double steepness = bend * tuning::kLimbDetail / std::max(distance, tuning::kLimbNear);
+    const double steepness = bend * tuning::kLimbDetail / std::max(distance, kLeastDistance);
     field.weights.push_back(length * std::max(std::exp(-steepness / tuning::kLimbSteepness), tuning::kLeastLimbWeight));
   }
 

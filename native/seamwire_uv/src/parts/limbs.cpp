@@ -153,7 +153,7 @@ void join_small(const PlanMesh& mesh, std::span<const double> areas, std::span<c
   std::priority_queue<std::pair<double, std::int32_t>, std::vector<std::pair<double, std::int32_t>>, std::greater<>>
       small;
   for (const auto& [part, others] : beside) {
-    if (area_of[part] < tuning::kSmallestLimb) small.emplace(area_of[part], part);
+    if (area_of[part] < tuning::kLeastPart) small.emplace(area_of[part], part);
   }
   while (!small.empty()) {
     poll.next();
@@ -174,7 +174,7 @@ void join_small(const PlanMesh& mesh, std::span<const double> areas, std::span<c
       beside[c][kept] += weight;
     }
     beside.erase(gone);
-    if (area_of[kept] < tuning::kSmallestLimb) small.emplace(area_of[kept], kept);
+    if (area_of[kept] < tuning::kLeastPart) small.emplace(area_of[kept], kept);
   }
 }
 
@@ -207,11 +207,10 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
       if (step(twin / 3, distances[mesh.edge_of[h]])) nearest[twin / 3] = nearest[f];
     }
   });
-  // A triangle is in the band of its nearest border. Triangles that lie deeper in their part stay.
+  // A triangle is in the band of its nearest border. Triangles that lie deeper in their part stay, so no part is lost.
   std::map<Edge, std::vector<std::int32_t>> band_of;
   for (std::int32_t f = 0; index(f) < of_face.size(); ++f) {
-    const double width = std::min(tuning::kLimbBand, tuning::kLimbBandShare * deepest[of_face[f]]);
-    if (depth[f] < width) band_of[nearest[f]].push_back(f);
+    if (depth[f] < std::min(tuning::kLimbBand, 0.5 * deepest[of_face[f]])) band_of[nearest[f]].push_back(f);
   }
   const std::vector<std::int32_t> before = of_face;
   std::vector<std::int32_t> number(of_face.size(), -1);  // of a triangle in its band

@@ -226,7 +226,7 @@ class PanelCut {
       }
       for (std::int32_t n = 0; index(n) < count; ++n) {
         const std::int32_t part = sets.find(n);
-        if (is_joined[part] == 0 || has_smaller[part] != 0 || areas[part] >= tuning::kLeastPanel) continue;
+        if (is_joined[part] == 0 || has_smaller[part] != 0 || areas[part] >= tuning::kLeastOfPanels) continue;
         side_[n] = side_[n] != 0 ? 0 : 1;
         is_done = false;
       }

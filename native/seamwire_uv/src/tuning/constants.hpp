@@ -133,8 +133,8 @@ inline constexpr double kBiasToSharp = 2.2;
 inline constexpr double kPartPrice = 0.2;
 /// The same for a part that a single other one surrounds. Caps and buttons have short rims, and artists part them.
 inline constexpr double kEnclosedPrice = 0.05;
-/// Share of the area of its piece below which a part joins a neighbor, and below which there is no limb. Without it,
-/// characters get crumbs at ears and fingers.
+/// Share of the area of its piece below which a part or a limb joins a neighbor. Without it, characters get crumbs at
+/// ears and fingers.
 inline constexpr double kLeastPart = 0.003;
 /// Width in diagonals of its piece below which a part may be a step of a chamfer.
 inline constexpr double kLeastPartWidth = 0.008;
@@ -288,8 +288,6 @@ inline constexpr double kStraight = 0.1;
 inline constexpr double kLimbDetail = 0.02;
 /// A radian of concavity resists as much as this distance.
 inline constexpr double kLimbConcavity = 3.0;
-/// Distance between two faces below which they count as that far apart.
-inline constexpr double kLimbNear = 0.006;
 /// Concavity over a detail, in radians, that divides the weight of a border by e, and the least weight.
 inline constexpr double kLimbSteepness = 0.5;
 inline constexpr double kLeastLimbWeight = 0.02;
@@ -297,8 +295,6 @@ inline constexpr double kLeastLimbWeight = 0.02;
 inline constexpr double kLimbCompactness = 0.1;
 /// Area below which a region is joined more cheaply.
 inline constexpr double kLimbArea = 0.006;
-/// Area of the least limb.
-inline constexpr double kSmallestLimb = 0.0015;
 /// Share of the area in flat triangles up to which a shape is a figure. Scans of figures have up to 0.04, machine parts
 /// 0.12 and more.
 inline constexpr double kMostFlat = 0.08;
@@ -314,9 +310,8 @@ inline constexpr double kMostTriangular = 0.2;
 inline constexpr double kMostExposed = 0.6;
 /// Curvature below which a triangle is flat.
 inline constexpr double kFlatLimb = 0.3;
-/// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
+/// Distance from a border up to which it may move.
 inline constexpr double kLimbBand = 0.03;
-inline constexpr double kLimbBandShare = 0.5;
 /// Joins up to this cost are made at the amount 0.5. Near 0, the limit is kLimbRange times as high.
 inline constexpr double kLimbCost = 0.15;
 inline constexpr double kLimbRange = 7.477;
@@ -335,9 +330,8 @@ inline constexpr double kPanelFacing = 200.0;
 inline constexpr double kPanelLine = 0.1;
 /// How often the border is found, with the prices that the last one leaves.
 inline constexpr int kPanelRounds = 4;
-/// Area below which a part of one side joins the other side.
-inline constexpr double kLeastPanel = 0.03;
-/// The same as kLeastPart for pieces with panels. Folds beside the border would become scraps.
+/// Share of the area of a garment below which a part of one side joins the other side. It is also in the place of
+/// kLeastPart, because folds beside the border would become scraps.
 inline constexpr double kLeastOfPanels = 0.01;
 
 // Scans. Each limit lies in the middle of a gap between artists' meshes, and scans, sculpts and remeshed surfaces, see
