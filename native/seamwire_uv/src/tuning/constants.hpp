@@ -40,7 +40,7 @@ inline constexpr double kFrontShare = 0.7;
 /// middle of wings.
 inline constexpr double kHidden = 0.25;
 /// Visibility from which a place is exposed: above the mean, where the eyes, nose and lips of a head are.
-inline constexpr double kExposed = 1.275;
+inline constexpr double kExposed = 1.45;
 /// Times that an exposed place costs more. Without it, slits ran through eyes and noses.
 inline constexpr double kExposedPrice = 9.0;
 
