@@ -192,7 +192,7 @@ islands : int
 steps : int
     The number of Newton steps after which the search in a piece ends. It finishes what it has begun, so a small number
     may be exceeded many times. A piece that misses the bound is searched again, with as many steps. 0: 4000,
-    or 0.04 for each triangle of a surface of 11,000 to 100,000.
+    or 0.04 for each triangle of a surface of 9,000 to 100,000.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels, and `best_so_far` keeps the best plan.
 

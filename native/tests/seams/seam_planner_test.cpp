@@ -499,8 +499,8 @@ TEST(SeamPlanner, TheMapIsCutWhereTheWiresAre) {
 
 TEST(SeamPlanner, LargeSurfacesArePlannedOnASimplifiedMesh) {
   // Handles are the hardest to carry over: a loop that is cut short leaves no disc.
-  const auto surface = shared(shapes::torus(100, 60));
-  ASSERT_GT(surface->face_count(), 11000U);
+  const auto surface = shared(shapes::torus(80, 60));
+  ASSERT_GT(surface->face_count(), 9000U);
   std::vector<SeamPlan> found;
   const SeamPlan plan =
       SeamPlanner(surface, along_edges()).plan({.distortion = 4.4, .steps = 30}, [&](const SeamPlan& one) {
@@ -653,8 +653,8 @@ TEST(SeamPlanner, OverlapsThatTheMapHasAreNotReached) {
 }
 
 TEST(SeamPlanner, ProgressGrowsWithTheWork) {
-  const auto surface = shared(shapes::bumpy(shapes::torus(100, 60), 0.01));
-  ASSERT_GT(surface->face_count(), 11000U);
+  const auto surface = shared(shapes::bumpy(shapes::torus(80, 60), 0.01));
+  ASSERT_GT(surface->face_count(), 9000U);
   // Processor time, because the number of calls depends on how fast the machine is.
   std::optional<std::clock_t> near_the_end;
   const Task watched{.stop = {}, .progress = [&](double fraction) {

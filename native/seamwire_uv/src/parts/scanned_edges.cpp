@@ -14,6 +14,7 @@
 
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "maps/quad_skew.hpp"
 #include "seamwire/errors.hpp"
 #include "tuning/constants.hpp"
@@ -25,6 +26,8 @@ using namespace detail;
 namespace {
 
 using Tensor = Eigen::Matrix3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 Vector unit(const Vector& v) {
   const double length = v.norm();
@@ -57,6 +60,8 @@ class EdgeSigns {
   /// The share of regular vertices inside the mesh, or 1 if all vertices lie on the border. They have six edges, or
   /// four edges beside the diagonals if all their faces are quads.
   double regular() const;
+  /// The share of the area in triangles that lie in a plane with each of their neighbors.
+  double flat() const;
   /// How well edges run along or across the bends of the surface: 1 if all do, 0 if their directions are random, -1 if
   /// all run halfway between. Strong bends count more, and diagonals of quads do not count. It is 1 without bends.
   ///
@@ -67,7 +72,7 @@ class EdgeSigns {
  private:
   void find_hinges();
   void measure(Hinge& hinge) const;
-  /// The quad_skew() of the two triangles, in radians.
+  /// The quad_skew() of the two triangles, in radians; kInfinity if they are no quad.
   double skew_of(const Hinge& hinge) const;
   void mark_diagonals(std::span<const std::int32_t> polygons);
   Vector area_normal(std::int32_t face) const {
@@ -135,13 +140,13 @@ double EdgeSigns::skew_of(const Hinge& hinge) const {
     const Vector next = away(k, (k + 1) % 4), last = away(k, (k + 3) % 4);
     corners[k] = std::atan2(next.cross(last).norm(), next.dot(last));
   }
-  return quad_skew(std::abs(hinge.bend), corners, 0.5 * std::numbers::pi);
+  const double fold = std::abs(hinge.bend);
+  return fold < kMostFold * kDegree ? quad_skew(fold, corners, 0.5 * std::numbers::pi) : kInfinity;
 }
 
 void EdgeSigns::mark_diagonals(std::span<const std::int32_t> polygons) {
-  constexpr double kMost = kMostSkew * std::numbers::pi / 180.0;
   std::vector<double> skews;
-  std::vector<double> best(triangles_.size(), kMost);
+  std::vector<double> best(triangles_.size(), kMostSkew * kDegree);
   for (const Hinge& hinge : hinges_) {
     skews.push_back(skew_of(hinge));
     for (const std::int32_t f : hinge.faces) best[f] = std::min(best[f], skews.back());
@@ -184,6 +189,20 @@ double EdgeSigns::regular() const {
     if (sides[v] == 4) ++of_four;
   }
   return inside == 0 ? 1.0 : static_cast<double>(std::max(of_six, of_four)) / static_cast<double>(inside);
+}
+
+double EdgeSigns::flat() const {
+  std::vector<double> most(triangles_.size(), 0.0);
+  for (const Hinge& hinge : hinges_) {
+    for (const std::int32_t f : hinge.faces) most[f] = std::max(most[f], std::abs(hinge.bend));
+  }
+  double flat = 0.0, all = 0.0;
+  for (std::int32_t f = 0; index(f) < triangles_.size(); ++f) {
+    const double area = area_normal(f).norm();
+    all += area;
+    if (most[f] < tuning::kInPlane) flat += area;
+  }
+  return all > 0.0 ? flat / all : 1.0;
 }
 
 double EdgeSigns::follows() const {
@@ -290,7 +309,7 @@ bool has_scanned_edges(std::span<const Vector> points, std::span<const Triangle>
   const EdgeSigns signs(points, triangles, polygons);
   const double spread = signs.spread();
   if (spread < tuning::kUniform && signs.regular() < tuning::kRegular) return true;
-  return spread < tuning::kUneven && signs.follows() < tuning::kFollows;
+  return spread < tuning::kUneven && signs.follows() < tuning::kFollows && signs.flat() < tuning::kFlatSides;
 }
 
 }  // namespace seamwire

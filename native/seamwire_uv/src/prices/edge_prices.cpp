@@ -178,7 +178,7 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
   return prices;
 }
 
-/// Whether most edges of a surface hardly bend, by length. The others of a low-poly animal do.
+/// Whether most edges of a surface hardly bend, by length. On a low-poly animal most edges bend more.
 bool is_mostly_flat(const PlanMesh& mesh, const EdgeBends& bends) {
   double flat = 0.0, length = 0.0;
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
@@ -204,7 +204,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<double> odds =
       border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, task);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
-  // On machine parts sharp edges hide seams on every side, and no place is exposed.
+  // On machine parts sharp edges hide seams on every side, and seams may run through exposed places.
   prices.is_machine_part = sharp_share(mesh, bends) > tuning::kMostSharp && is_mostly_flat(mesh, bends);
   for (const double open : prices.visibility) {
     prices.is_exposed.push_back(open >= tuning::kExposed && !prices.is_machine_part ? 1 : 0);
@@ -214,8 +214,8 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
-    const bool is_hidden = prices.is_machine_part && std::abs(bends.own[e]) > tuning::kSharpDegrees;
-    const double seen = is_hidden ? 1.0 : 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
+    const bool hides_seam = prices.is_machine_part && std::abs(bends.own[e]) > tuning::kSharpDegrees;
+    const double seen = hides_seam ? 1.0 : 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
     const double price = mesh.lengths[e] * seen * shapes[e] * weight;
     prices.of_edge.push_back(mesh.is_real[e] == 0 || !std::isfinite(price) ? kInfinity : price);
@@ -233,7 +233,6 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
       prices.of_edge[e] = is_barred ? kInfinity : std::sqrt(own[e] * own[image]);
     }
   }
-  prices.of_slit = tuning::kSlitPrice;
   prices.turning = length > 0.0 ? tuning::kTurnPrice * mesh.median_length * sum / length : 0.0;
   return prices;
 }

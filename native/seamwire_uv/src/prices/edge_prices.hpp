@@ -46,7 +46,6 @@ struct EdgePrices {
   std::vector<double> visibility;        ///< of each vertex; 1 on average
   std::vector<std::uint8_t> is_exposed;  ///< of each vertex: 1 in an exposed place
   double turning = 0.0;                  ///< what a seam pays for a turn by 90 degrees
-  double of_slit = 0.0;                  ///< what each slit costs beside its edges, so that there are few long ones
   bool is_machine_part = false;          ///< most of the bending is in sharp edges, and most edges hardly bend
 };
 

@@ -341,8 +341,8 @@ void PreparedSurface::find_meshes(const Task& task) {
     const Task own = part_of(task, 0.3 + 0.7 * static_cast<double>(done) / static_cast<double>(all),
                              0.3 + 0.7 * static_cast<double>(done + count) / static_cast<double>(all));
     done += count;
-    const std::size_t share = std::max(tuning::kMostTriangles * count / all, tuning::kLeastSimplified);
-    group.is_large = count > share;
+    const std::size_t share = std::max(tuning::kSimplified * count / all, tuning::kLeastSimplified);
+    group.is_large = all > tuning::kMostTriangles && count * tuning::kSimplified > share * tuning::kMostTriangles;
     if (group.is_large) add_simplified(group, share, part_of(own, 0.0, 0.7));
     const std::size_t half = group.searched().mesh->face_count() / 2;
     // On a large surface the maps of the original mesh would take most of the time of a second search.

@@ -350,8 +350,9 @@ class Search {
       if (problem_.reflection && problem_.reflection->sides[v] < 0 && problem_.reflection->images[v] >= 0) {
         v = problem_.reflection->images[v];
       }
-      const bool is_new = std::ranges::all_of(
-          ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > tuning::kApart; });
+      const bool is_new = std::ranges::all_of(ends, [&](std::int32_t end) {
+        return is_thorough ? v != end : (mesh.points[v] - mesh.points[end]).norm() > tuning::kApart;
+      });
       if (is_new && cut.is_on_cut[v] == 0) ends.push_back(v);
     }
     std::vector<Slit> found;
@@ -371,7 +372,7 @@ class Search {
 
   /// The gain of a plan over another one, down to a bound on the energy, divided by the additional cost.
   double gain_ratio(const SlitPlan& before, const Trial& after, double bound) const {
-    const double price = std::max(after.price - before.price, 0.0) + tuning::kChoicePrice * problem_.prices.of_slit;
+    const double price = std::max(after.price - before.price, 0.0) + tuning::kChoicePrice * tuning::kSlitPrice;
     return std::max(before.energy - std::max(after.energy, bound), 0.0) / price;
   }
 

@@ -57,7 +57,7 @@ double SlitProblem::price(std::span<const std::int32_t> chain) const {
 }
 
 double SlitProblem::price(const Slit& slit) const {
-  const double fixed = slit.is_needed ? 0.0 : prices.of_slit;
+  const double fixed = slit.is_needed ? 0.0 : tuning::kSlitPrice;
   return price(slit.path) + price(slit.image) + (slit.image.empty() ? fixed : 2.0 * fixed);
 }
 

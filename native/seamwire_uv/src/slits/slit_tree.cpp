@@ -452,7 +452,7 @@ class TreeGrowth {
     }
     // The mirror image of a slit may lie in another piece, and may reach terminals there.
     for (std::size_t p = 0; p < states_.size(); ++p) reach_terminals(p);
-    for (std::int32_t p = 0; index(p) < states_.size(); ++p) lengthen_short_cut(p);
+    for (std::int32_t p = 0; index(p) < states_.size(); ++p) cut_uncut(p);
     for (const std::int32_t root : tree_.roots) trim_stub(root);
     for (Slit& slit : tree_.slits) lengthen_single_edge(slit);
     return std::move(tree_);
@@ -466,7 +466,7 @@ class TreeGrowth {
     std::unordered_map<std::int32_t, std::vector<std::size_t>> terminals_at;  ///< by vertex
     std::vector<std::int32_t> vertices;      ///< of its cut; boundary loops that are not reached yet are left out
     std::unordered_set<std::int32_t> is_in;  ///< the same
-    double cut_length = 0.0;                 ///< with all of its boundary
+    bool has_cut = false;  ///< with its boundary; a single edge with both sides is too little for a map
 
     void add(Terminal terminal) {
       for (const std::int32_t v : terminal.vertices) terminals_at[v].push_back(terminals.size());
@@ -499,7 +499,7 @@ class TreeGrowth {
     } else {
       const auto length = [&](const auto& loop) { return rounded(loop_length(loop, problem_.mesh->points)); };
       std::ranges::stable_sort(loops, std::ranges::greater(), length);
-      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += length(loop);
+      state.has_cut = loops.size() > 1 || loops.front().size() > 2;
       root = loops.front().front();
       for (std::size_t i = 1; i < loops.size(); ++i) state.add({loops[i], Terminal::Kind::kLoop});
       join(state, loops.front());
@@ -646,7 +646,7 @@ class TreeGrowth {
 
   void add_chain(const std::vector<std::int32_t>& chain) {
     State& state = state_at(chain);
-    state.cut_length += chain_length(*problem_.mesh, chain);
+    state.has_cut = true;
     join(state, chain);
   }
 
@@ -723,11 +723,11 @@ class TreeGrowth {
     }
   }
 
-  /// A closed piece without a cut gets a slit to the point farthest from its root.
-  void lengthen_short_cut(std::int32_t number) {
+  /// A piece without a cut gets a slit to the point farthest from where its tree begins.
+  void cut_uncut(std::int32_t number) {
     const State& state = states_[number];
     const PieceBody& body = state.body;
-    if (state.cut_length > 0.0) return;
+    if (state.has_cut) return;
     const SlitFinder finder = finder_in(index(number));
     const std::vector<double> away = edge_distances(*problem_.mesh, state.vertices, task_);
     std::int32_t farthest = -1;

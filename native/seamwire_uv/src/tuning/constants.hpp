@@ -41,7 +41,7 @@ inline constexpr double kFrontShare = 0.7;
 inline constexpr double kHidden = 0.25;
 /// Visibility from which a place is exposed: above the mean, where the eyes, nose and lips of a head are.
 inline constexpr double kExposed = 1.45;
-/// Times that an exposed place costs more. Without it, slits ran through eyes and noses.
+/// Times that an exposed place costs as much. Without it, slits ran through eyes and noses.
 inline constexpr double kExposedPrice = 9.0;
 
 // Price of an edge, by the shape of the surface.
@@ -68,8 +68,8 @@ inline constexpr double kTurnInPlan = 0.5;
 
 /// Degrees above which the bend of an edge counts as sharp. Rims of regions with sharp edges are such edges too.
 inline constexpr double kSharpDegrees = 30.0;
-/// Share of all bending in sharp edges up to which an artist's mesh may be a figure. With more of it, a surface is a
-/// machine part if most of its edges hardly bend. Heads have up to 0.47.
+/// Share of all bending in sharp edges up to which an artist's mesh may be a figure. Above it, a surface is a machine
+/// part if most of its edges hardly bend. Heads have up to 0.47.
 inline constexpr double kMostSharp = 0.5;
 /// Degrees below which an edge hardly bends. Most edges of an animal of few triangles bend more.
 inline constexpr double kFlatDegrees = 15.0;
@@ -112,8 +112,8 @@ inline constexpr double kMarked = 6.0;
 /// Share of the inner edges of a piece above which marks are everywhere, and say nothing.
 inline constexpr double kMarkedEverywhere = 0.8;
 /// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
-/// Edges between panels have at least as much. No edge with as much is a fold of a net, so that the sides of a cube are
-/// islands at the far end of the scale.
+/// Edges between panels have at least this. An edge with this or more is never a fold of a net: at the far end of the
+/// scale, the sides of a cube are islands.
 inline constexpr double kMostOdds = 4.0;
 
 // Polygons: lines of edges. quad_skew.hpp says which triangles count as quads.
@@ -134,7 +134,7 @@ inline constexpr double kPartPrice = 0.2;
 /// The same for a part that a single other one surrounds. Caps and buttons have short rims, and artists part them.
 inline constexpr double kEnclosedPrice = 0.05;
 /// Share of the area of its piece below which a part or a limb joins a neighbor. Without it, characters get crumbs at
-/// ears and fingers.
+/// ears and fingers. Limbs with necks have at least this share of the whole surface.
 inline constexpr double kLeastPart = 0.003;
 /// Width in diagonals of its piece below which a part may be a step of a chamfer.
 inline constexpr double kLeastPartWidth = 0.008;
@@ -204,11 +204,12 @@ inline constexpr double kMirrorSpread = 0.02;
 inline constexpr double kClosePeak = 0.05;
 /// The same for peaks of whole regions.
 inline constexpr double kWidePeak = 0.15;
-/// Candidates of each kind: at close peaks, at wide ones, farthest from the cut, and from holes to the next boundary
-/// loop. Without the farthest, a surface with a tiny boundary was stuck at an energy of 5.9.
+/// Candidates of each kind: close peaks, wide peaks, places far from the cut, and joins of holes. Without far places, a
+/// surface with a tiny boundary was stuck at an energy of 5.9.
 inline constexpr std::size_t kOfEachKind = 3;
 /// Distance below which two candidates are one, and below which there is no peak near the cut. A slit to it would be a
-/// crumb. A tip that is nearer to the mirror plane is moved onto it, or a back gets two parallel slits.
+/// crumb. A tip that is nearer to the mirror plane is moved onto it, or a back gets two parallel slits; this is in
+/// roots of the area of its piece.
 inline constexpr double kApart = 0.07;
 /// Energy of a triangle above 4 that counts at most, so that one collapsed triangle does not hide all other peaks.
 inline constexpr double kMostExcess = 50.0;
@@ -248,12 +249,14 @@ inline constexpr double kBudgetOfTriangle = 0.04;
 /// Bound on the energy below which exposed places may be cut. At 4.1, one head needed a slit from the throat to the
 /// lip.
 inline constexpr double kLowStretch = 4.15;
-/// Triangles above which a surface is planned on simplified meshes. All of them together have about as many. A Newton
-/// step on 28,000 triangles takes 40 ms.
-inline constexpr std::size_t kMostTriangles = 11000;
+/// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms. With
+/// 11000, a surface of 10,540 triangles took 2.6 times as long.
+inline constexpr std::size_t kMostTriangles = 9000;
+/// Triangles that all simplified meshes have together, about.
+inline constexpr std::size_t kSimplified = 11000;
 /// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
-/// smaller itself stays as it is, and is planned on one thread, at the same time as other such groups. Their plans are
-/// shown only once all of them are done.
+/// smaller itself stays as it is. If the searched mesh of one of several groups has fewer, the group is planned on one
+/// thread, at the same time as other such groups. Their plans are shown only once all of them are done.
 inline constexpr std::size_t kLeastSimplified = 600;
 /// Times that a chain of the original mesh is longer than the slit that it follows, at most. A longer chain leads
 /// around something.
@@ -350,5 +353,9 @@ inline constexpr double kUniform = 0.33;
 inline constexpr double kRegular = 0.96;
 /// Spread from which on edges are an artist's, even if they do not follow the bends: those of scans reach 0.5.
 inline constexpr double kUneven = 0.6;
+/// Share of the area in flat triangles from which on edges are an artist's, even if they do not follow the bends.
+inline constexpr double kFlatSides = 0.2;
+/// Angle between triangles, in radians, up to which they lie in a plane (0.5 degrees).
+inline constexpr double kInPlane = 0.0087;
 
 }  // namespace seamwire::detail::tuning

@@ -47,7 +47,7 @@ struct SeamGoal {
   std::size_t islands = 0;
   /// The number of Newton steps after which the search in a piece ends. It finishes what it has begun, so the first map
   /// and the first trials may take many times a small number. A piece that misses the bound is searched again, with as
-  /// many steps. 0: 4000, or 0.04 for each triangle of a surface of 11,000 to 100,000.
+  /// many steps. 0: 4000, or 0.04 for each triangle of a surface of 9,000 to 100,000.
   std::size_t steps = 0;
 };
 
