@@ -51,6 +51,18 @@ double length_of(const SlitProblem& problem, const SlitTree& tree) {
   return sum / problem.mesh->scale;
 }
 
+TEST(SlitTree, LengthensASeamOfOneEdge) {
+  // Its two sides are an outline of two edges, which has no map.
+  const Surface ball = shapes::icosphere(2).surface();
+  const Triangle& triangle = ball.triangles()[0];
+  const SlitProblem problem = problem_on(ball, {.seams = {Edge{triangle[0], triangle[1]}}});
+  for (const bool has_tips : {false, true}) {
+    const SlitTree tree = grow_tree(problem, {.has_tips = has_tips, .keeps_holes = has_tips}, {});
+    EXPECT_FALSE(tree.slits.empty());
+    EXPECT_TRUE(std::isfinite(SlitSolver(problem, tree.roots).solve(tree.slits, {}).energy));
+  }
+}
+
 TEST(SlitTree, MakesEverySurfaceADisc) {
   const std::vector<Surface> surfaces = {
       shapes::grid(6).surface(),
