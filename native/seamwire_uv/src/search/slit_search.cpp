@@ -350,6 +350,7 @@ class Search {
       if (problem_.reflection && problem_.reflection->sides[v] < 0 && problem_.reflection->images[v] >= 0) {
         v = problem_.reflection->images[v];
       }
+      // Places all over the surface are as far apart as they can be, and may all be near each other on a small piece.
       const bool is_new = std::ranges::all_of(ends, [&](std::int32_t end) {
         return is_thorough ? v != end : (mesh.points[v] - mesh.points[end]).norm() > tuning::kApart;
       });
