@@ -682,7 +682,7 @@ TEST(PartFinder, refuses_bad_arguments) {
 TEST(Polygons, joins_the_triangles_of_quads) {
   const Surface surface = shapes::grid(4).surface();
   const PlanMesh mesh = plan_mesh(surface, {});
-  const Polygons polygons = find_polygons(mesh, face_frames(mesh, {}), {}, {});
+  const Polygons polygons = find_polygons(mesh, {}, {});
   EXPECT_EQ(polygons.count, 16u);
   EXPECT_EQ(std::ranges::count(polygons.is_diagonal, 1), 16);
 }
@@ -690,7 +690,7 @@ TEST(Polygons, joins_the_triangles_of_quads) {
 TEST(Polygons, has_lines_that_go_on_over_crossings) {
   const Surface surface = shapes::quad_grid(4).surface();
   const PlanMesh mesh = plan_mesh(surface, {});
-  const Polygons polygons = find_polygons(mesh, face_frames(mesh, {}), {}, {});
+  const Polygons polygons = find_polygons(mesh, {}, {});
   const std::vector<std::vector<std::int32_t>> lines = find_lines(mesh, polygons, {});
   EXPECT_EQ(lines.size(), 10u);
   for (const std::vector<std::int32_t>& line : lines) EXPECT_EQ(line.size(), 4u);

@@ -22,7 +22,7 @@ struct Made {
 
   explicit Made(const shapes::QuadMesh& quads) {
     const PlanMesh mesh = plan_mesh(quads.surface(), {});
-    shape = smoothed(mesh, find_polygons(mesh, face_frames(mesh, {}), {}, {}), {});
+    shape = smoothed(mesh, find_polygons(mesh, {}, {}), {});
     for (const Vector& point : shape.surface->points()) points.emplace_back(point / mesh.scale);
   }
 

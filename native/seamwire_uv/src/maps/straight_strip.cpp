@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 #include "detail/half_edge.hpp"
@@ -18,7 +17,6 @@ namespace seamwire::detail {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// Triangles lower than this part of their longest side do not decide how wide a row or column is.
 constexpr double kLowest = 1e-4;
 
@@ -60,31 +58,6 @@ class QuadFinder {
   const Vector& point(std::int32_t half_edge) const {
     return points_[index(island_.vertices[island_.tail(half_edge)])];
   }
-  Vector normal(std::int32_t half_edge) const {
-    const Vector& a = point(half_edge);
-    return (point(next_in_face(half_edge)) - a).cross(point(previous_in_face(half_edge)) - a);
-  }
-  /// The angle of the triangle where a half-edge begins.
-  double corner(std::int32_t half_edge) const {
-    const Vector& a = point(half_edge);
-    return angle(point(next_in_face(half_edge)) - a, point(previous_in_face(half_edge)) - a);
-  }
-  static double angle(const Vector& one, const Vector& other) {
-    return std::atan2(one.cross(other).norm(), one.dot(other));
-  }
-
-  /// How far the two triangles at a half-edge are from a flat rectangle; kInfinity if they are no quad.
-  double skew(std::int32_t h) const {
-    const std::int32_t twin = island_.twins[h];
-    const double fold = angle(normal(h), normal(twin));
-    if (!(fold <= kMostFold * kDegree)) return kInfinity;
-    const double skew = quad_skew(fold,
-                                  {corner(h) + corner(next_in_face(twin)), corner(next_in_face(h)) + corner(twin),
-                                   corner(previous_in_face(h)), corner(previous_in_face(twin))},
-                                  0.5 * std::numbers::pi);
-    return skew <= kMostSkew * kDegree ? skew : kInfinity;
-  }
-
   /// Pairs the triangles that have real edges only. Triangles with one possible partner get it first, because each
   /// complete pairing contains that pair (Karp and Sipser 1981). Then the pair that looks most like a quad follows.
   bool pair_free(const std::vector<std::uint8_t>& is_free) {
@@ -92,17 +65,17 @@ class QuadFinder {
     for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
       const std::int32_t twin = island_.twins[h];
       if (twin < h || is_free[h / 3] == 0 || is_free[twin / 3] == 0) continue;
-      const double score = skew(h);
-      if (score != kInfinity) pairs.emplace_back(score, h);
+      const double skew = quad_skew({point(h), point(previous_in_face(twin)), point(twin), point(previous_in_face(h))});
+      if (skew != kInfinity) pairs.emplace_back(skew, h);
     }
     std::ranges::sort(pairs);
     may_pair_.assign(island_.twins.size(), 0);
-    for (const auto& [score, h] : pairs) may_pair_[h] = may_pair_[island_.twins[h]] = 1;
+    for (const auto& [skew, h] : pairs) may_pair_[h] = may_pair_[island_.twins[h]] = 1;
     for (std::int32_t f = 0; index(f) < is_free.size(); ++f) {
       if (is_free[f] != 0) forced_.push_back(f);
     }
     if (!pair_forced()) return false;
-    for (const auto& [score, h] : pairs) {
+    for (const auto& [skew, h] : pairs) {
       if (partner_[h / 3] >= 0 || partner_[island_.twins[h] / 3] >= 0) continue;
       pair(h);
       if (!pair_forced()) return false;

@@ -452,12 +452,13 @@ void PartFinder::Impl::prepare(const Task& task) {
       find_visibility(mesh, std::nullopt, part_of(task, 0.2, 0.8), size_at, tuning::kMostLooks);
   std::vector<std::uint8_t> is_border = problem.is_seam;
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] |= is_marked[e];
-  polygons = find_polygons(mesh, frames, is_border, task);
+  polygons = find_polygons(mesh, is_border, task);
   if (problem.reflection) {
     take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
   }
   bends = bends_over_edges(mesh, frames, polygons, sizes, task);
-  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), task);
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), tuning::kOnPlane,
+                     task);
   regions = regions_of(polygons, task);
   if (options.by == PartsBy::kShape) {
     if (!options.is_scan) options.is_scan = has_scanned_edges(mesh.points, mesh.triangles, polygons.of_face);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,8 +25,6 @@ using namespace detail;
 namespace {
 
 using Tensor = Eigen::Matrix3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Vector unit(const Vector& v) {
   const double length = v.norm();
@@ -72,8 +69,6 @@ class EdgeSigns {
  private:
   void find_hinges();
   void measure(Hinge& hinge) const;
-  /// The quad_skew() of the two triangles, in radians; kInfinity if they are no quad.
-  double skew_of(const Hinge& hinge) const;
   void mark_diagonals(std::span<const std::int32_t> polygons);
   Vector area_normal(std::int32_t face) const {
     const auto& [a, b, c] = triangles_[face];
@@ -132,30 +127,19 @@ void EdgeSigns::measure(Hinge& hinge) const {
   if (angle > kUnbent) hinge.bend = is_ridge ? angle : -angle;
 }
 
-double EdgeSigns::skew_of(const Hinge& hinge) const {
-  const std::array<std::int32_t, 4> quad{hinge.start, hinge.tips[0], hinge.end, hinge.tips[1]};
-  const auto away = [&](std::size_t from, std::size_t to) { return Vector(points_[quad[to]] - points_[quad[from]]); };
-  std::array<double, 4> corners{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector next = away(k, (k + 1) % 4), last = away(k, (k + 3) % 4);
-    corners[k] = std::atan2(next.cross(last).norm(), next.dot(last));
-  }
-  const double fold = std::abs(hinge.bend);
-  return fold < kMostFold * kDegree ? quad_skew(fold, corners, 0.5 * std::numbers::pi) : kInfinity;
-}
-
 void EdgeSigns::mark_diagonals(std::span<const std::int32_t> polygons) {
   std::vector<double> skews;
-  std::vector<double> best(triangles_.size(), kMostSkew * kDegree);
+  std::vector<double> best(triangles_.size(), kInfinity);
   for (const Hinge& hinge : hinges_) {
-    skews.push_back(skew_of(hinge));
+    skews.push_back(
+        quad_skew({points_[hinge.start], points_[hinge.tips[0]], points_[hinge.end], points_[hinge.tips[1]]}));
     for (const std::int32_t f : hinge.faces) best[f] = std::min(best[f], skews.back());
   }
   // Two triangles are a quad if each is the other's best partner for it.
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     const auto [one, other] = hinges_[h].faces;
     const bool is_inner = !polygons.empty() && polygons[one] == polygons[other];
-    hinges_[h].is_diagonal = is_inner || skews[h] <= std::min(best[one], best[other]);
+    hinges_[h].is_diagonal = is_inner || (skews[h] < kInfinity && skews[h] <= std::min(best[one], best[other]));
   }
 }
 

@@ -24,21 +24,6 @@ namespace {
 
 constexpr std::size_t kMostEdges = 24;  // around a vertex; lines end at the middle of larger fans
 
-/// How far the two triangles beside a half-edge are from a rectangle, in degrees; kInfinity if they are no quad.
-double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t h) {
-  const std::int32_t twin = mesh.twins[h];
-  const double fold = degrees_between(frames[h / 3].normal, frames[twin / 3].normal);
-  if (!(fold < kMostFold)) return kInfinity;
-  const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)],
-                                      mesh.points[mesh.apex(h)]};
-  std::array<double, 4> angles{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    angles[i] = degrees_between(corners[(i + 1) % 4] - corners[i], corners[(i + 3) % 4] - corners[i]);
-  }
-  const double skew = quad_skew(fold, angles, 90.0);
-  return skew < kMostSkew ? skew : kInfinity;
-}
-
 /// The box around some points that has the least diagonal of all directions. A box along the axes would depend on how
 /// the points are turned.
 class LeastBox {
@@ -276,8 +261,7 @@ void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflec
 
 }  // namespace
 
-Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::span<const std::uint8_t> is_border,
-                       const Task& task) {
+Polygons find_polygons(const PlanMesh& mesh, std::span<const std::uint8_t> is_border, const Task& task) {
   Poll poll(task);
   DisjointSets sets(mesh.face_count());
   std::vector<std::uint8_t> is_alone(mesh.face_count(), 1);
@@ -294,7 +278,8 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, 
     poll.next();
     if (twin < 0 || is_alone[h / 3] == 0 || is_alone[twin / 3] == 0) continue;
     if (!is_border.empty() && is_border[e] != 0) continue;
-    const double skew = skew_of(mesh, frames, h);
+    const double skew = quad_skew(
+        {mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)], mesh.points[mesh.apex(h)]});
     if (skew != kInfinity) pairs.emplace_back(skew, e);
   }
   polled_sort(pairs, Poll(task));
@@ -454,7 +439,7 @@ double sharp_share(const PlanMesh& mesh, const EdgeBends& bends) {
 
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
                                 const Task& task) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
@@ -477,7 +462,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds - tuning::kOpenness * openness[e];
     if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
     if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
-    if (is_on_plane(e) && is_round[e] == 0) odds[e] += tuning::kOnPlane;
+    if (is_on_plane(e) && is_round[e] == 0) odds[e] += on_plane;
     if (is_marked[e] != 0) odds[e] += tuning::kMarked;
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds, task);

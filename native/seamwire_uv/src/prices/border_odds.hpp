@@ -19,8 +19,7 @@ struct Polygons {
 
 /// Finds the polygons: those that were triangulated, and pairs of other triangles that look like a quad, the best pairs
 /// first. `is_border`: of each edge, 1 if it cannot lie inside a quad; empty: all can. Throws Cancelled.
-Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::span<const std::uint8_t> is_border,
-                       const Task& task);
+Polygons find_polygons(const PlanMesh& mesh, std::span<const std::uint8_t> is_border, const Task& task);
 
 /// Takes pairs of triangles apart at edges that are 1 in `is_apart`. Polygons that were triangulated stay whole.
 /// Returns whether there were such pairs. Throws Cancelled.
@@ -60,11 +59,12 @@ double sharp_share(const PlanMesh& mesh, const EdgeBends& bends);
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
-/// `reflection`: null if the mesh is not symmetric.
+/// `reflection`: null if the mesh is not symmetric. `on_plane`: added on the mirror plane, unless the surface is
+/// round there.
 /// Throws Cancelled.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
                                 const Task& task);
 
 /// Returns the price of a cut along an edge with these log odds, for each unit of length. It is minus the logarithm of

@@ -195,14 +195,15 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection, frames), .is_exposed = {}};
   for (double& open : prices.visibility) open = rounded(open);
-  const Polygons polygons = find_polygons(mesh, frames, {}, task);
+  const Polygons polygons = find_polygons(mesh, {}, task);
   const PieceSizes sizes = measure_pieces(mesh, frames, task);
   const EdgeBends bends = bends_over_edges(mesh, frames, polygons, sizes, task);
   // Openness is in the price of a place, so it must not count twice.
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
-  const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, task);
+  // Paths on the mirror plane pay half, so the plane counts half.
+  const std::vector<double> odds = border_odds(mesh, polygons, sizes, bends, even, none,
+                                               reflection ? &*reflection : nullptr, 0.5 * tuning::kOnPlane, task);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
   // On machine parts sharp edges hide seams on every side, and seams may run through exposed places.
   prices.is_machine_part = sharp_share(mesh, bends) > tuning::kMostSharp && is_mostly_flat(mesh, bends);

@@ -376,7 +376,7 @@ class HandleLoops {
     for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
       if (island_.twins[h] >= 0) is_inner[edge_at(h)] = 1;
     }
-    const Polygons polygons = find_polygons(mesh, face_frames(mesh, task_), problem_.is_seam, task_);
+    const Polygons polygons = find_polygons(mesh, problem_.is_seam, task_);
     std::vector<std::pair<double, std::vector<std::int32_t>>> found;
     for (const std::vector<std::int32_t>& line : find_lines(mesh, polygons, task_)) {
       if (line.size() < 3 || std::ranges::any_of(line, [&](std::int32_t e) { return is_inner[e] == 0; })) continue;

@@ -116,7 +116,7 @@ inline constexpr double kMarkedEverywhere = 0.8;
 /// scale, the sides of a cube are islands.
 inline constexpr double kMostOdds = 4.0;
 
-// Polygons: lines of edges. quad_skew.hpp says which triangles count as quads.
+// Polygons: lines of edges. quad_skew() says which triangles count as quads.
 
 /// Degrees that a line turns at most at a vertex of four edges, where the opposite edge continues it.
 inline constexpr double kOverVertex = 80.0;
