@@ -58,6 +58,7 @@ class QuadFinder {
   const Vector& point(std::int32_t half_edge) const {
     return points_[index(island_.vertices[island_.tail(half_edge)])];
   }
+
   /// Pairs the triangles that have real edges only. Triangles with one possible partner get it first, because each
   /// complete pairing contains that pair (Karp and Sipser 1981). Then the pair that looks most like a quad follows.
   bool pair_free(const std::vector<std::uint8_t>& is_free) {

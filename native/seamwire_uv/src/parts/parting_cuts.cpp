@@ -18,6 +18,7 @@
 #include "detail/poll.hpp"
 #include "graph/disjoint_sets.hpp"
 #include "graph/edge_chains.hpp"
+#include "maps/degrees_between.hpp"
 #include "parts/minimum_cut.hpp"
 #include "slits/slit_tree.hpp"
 #include "surface/joined_faces.hpp"

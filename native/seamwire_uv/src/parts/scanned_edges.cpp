@@ -135,7 +135,7 @@ void EdgeSigns::mark_diagonals(std::span<const std::int32_t> polygons) {
         quad_skew({points_[hinge.start], points_[hinge.tips[0]], points_[hinge.end], points_[hinge.tips[1]]}));
     for (const std::int32_t f : hinge.faces) best[f] = std::min(best[f], skews.back());
   }
-  // Two triangles are a quad if each is the other's best partner for it.
+  // Two triangles are a quad if neither has a better partner.
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
     const auto [one, other] = hinges_[h].faces;
     const bool is_inner = !polygons.empty() && polygons[one] == polygons[other];

@@ -16,6 +16,7 @@
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "graph/disjoint_sets.hpp"
+#include "maps/degrees_between.hpp"
 #include "maps/quad_skew.hpp"
 #include "tuning/constants.hpp"
 

@@ -59,8 +59,8 @@ double sharp_share(const PlanMesh& mesh, const EdgeBends& bends);
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
-/// `reflection`: null if the mesh is not symmetric. `on_plane`: added on the mirror plane, unless the surface is
-/// round there.
+/// `reflection`: null if the mesh is not symmetric. `on_plane`: log odds that edges on the mirror plane get
+/// besides, unless the surface is round there.
 /// Throws Cancelled.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,

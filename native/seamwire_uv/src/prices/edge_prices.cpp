@@ -201,9 +201,8 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   // Openness is in the price of a place, so it must not count twice.
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
-  // Paths on the mirror plane pay half, so the plane counts half.
   const std::vector<double> odds = border_odds(mesh, polygons, sizes, bends, even, none,
-                                               reflection ? &*reflection : nullptr, 0.5 * tuning::kOnPlane, task);
+                                               reflection ? &*reflection : nullptr, tuning::kSlitOnPlane, task);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
   // On machine parts sharp edges hide seams on every side, and seams may run through exposed places.
   prices.is_machine_part = sharp_share(mesh, bends) > tuning::kMostSharp && is_mostly_flat(mesh, bends);

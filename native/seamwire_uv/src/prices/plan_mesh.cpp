@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -173,12 +172,6 @@ std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
     frames.push_back(face_frame(mesh, triangle));
   }
   return frames;
-}
-
-double degrees_between(const Vector& one, const Vector& other) {
-  constexpr double kGrid = 1024.0;  // steps in a degree
-  const double degrees = 180.0 / std::numbers::pi * std::atan2(one.cross(other).norm(), one.dot(other));
-  return std::round(kGrid * degrees) / kGrid;
 }
 
 std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {

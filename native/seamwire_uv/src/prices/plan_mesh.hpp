@@ -67,10 +67,6 @@ bool have_area(const PlanMesh& mesh, std::span<const Triangle> triangles);
 /// Throws Cancelled.
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task);
 
-/// The angle between two directions in degrees, rounded to a thousandth, so that the angles of a turned model lie on
-/// the same side of every threshold. 0 if a vector is zero.
-double degrees_between(const Vector& one, const Vector& other);
-
 /// Unit normals at vertices, weighted by the angles at corners. Throws Cancelled.
 std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task);
 

@@ -105,8 +105,11 @@ inline constexpr double kSharperBy = 5.0;
 inline constexpr double kConcave = 1.0;
 /// Degrees from which a concave edge is a crease.
 inline constexpr double kConcaveDegrees = 20.0;
-/// Added on the mirror plane, unless the surface is round there. It was the strongest feature of a learned model.
+/// Added for borders on the mirror plane, unless the surface is round there. It was the strongest feature of a learned
+/// model.
 inline constexpr double kOnPlane = 2.0;
+/// The same for slits: half, because a path on the plane is cut once, and a path beside it twice.
+inline constexpr double kSlitOnPlane = 0.5 * kOnPlane;
 /// Added where an artist expects a border. It is enough to make a border of a flat edge.
 inline constexpr double kMarked = 6.0;
 /// Share of the inner edges of a piece above which marks are everywhere, and say nothing.
