@@ -28,7 +28,7 @@ std::vector<Edge> edges_in_map(const UnwrapMesh& mesh, std::vector<Edge> edges) 
   return edges;
 }
 
-/// The seams of the map. A side that only a part of is a seam is none: a seam that ends at a vertex that is left out
+/// The seams of the map. A side does not count if only a part of it is a seam. So a seam that ends at a left-out vertex
 /// ends before it in the map.
 std::vector<Edge> seams_in_map(const UnwrapMesh& mesh, const std::vector<std::uint8_t>& is_chosen) {
   std::set<Edge> partly;

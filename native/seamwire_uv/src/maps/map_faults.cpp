@@ -65,8 +65,7 @@ struct Soup {
     return std::max({(own[1] - own[0]).norm(), (own[2] - own[1]).norm(), (own[0] - own[2]).norm()});
   }
 
-  /// The triangles that are flipped, and the islands that overlap themselves or others, of those that are shown and
-  /// placed; nothing if there are none.
+  /// The flipped triangles, and the islands that overlap themselves or others. Only what is shown and placed counts.
   std::pair<std::vector<std::int32_t>, std::vector<std::int32_t>> measure(const Flags& is_shown,
                                                                           const Task& task) const {
     std::vector<std::int32_t> rows, numbers, flipped, overlapping;
