@@ -60,11 +60,14 @@ double off(const Surface& surface, const std::vector<std::int32_t>& chain, const
   return most / kEdge;
 }
 
+/// The vertices of a wire; empty if no edges lead to its end.
 std::vector<std::int32_t> wire(const Surface& surface, const std::vector<Scribble>& scribbles, std::int32_t from,
                                std::int32_t to, std::optional<MetricKind> kind = std::nullopt) {
   const Metric plain = euclidean_metric(surface, principal_curvatures(surface));
   const Metric metric = apply_scribbles(surface, plain, scribbles, kind);
-  return edge_wires(make_edge_graph(surface, metric, nullptr, scribbles, kind), {from}).trace({to})->vertices;
+  const EdgeWires wires = edge_wires(make_edge_graph(surface, metric, nullptr, scribbles, kind), {from});
+  const std::optional<EdgeChain> chain = wires.trace({to});
+  return chain ? chain->vertices : std::vector<std::int32_t>{};
 }
 
 std::vector<std::int32_t> wire_between_ends(const Surface& surface, const Scribble& scribble) {
