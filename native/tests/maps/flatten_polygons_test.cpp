@@ -85,8 +85,9 @@ TEST(FlattenPolygons, CutsRunAlongRealEdgesOnly) {
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     for (int round = 0; round < 8; ++round) {
       shapes::PolygonMesh mesh = meshes[m];
-      std::normal_distribution<double> noise(0.0, round % 2 == 0 ? 0.0 : 0.01);
-      for (Vector& p : mesh.points) p += Vector(noise(random), noise(random), noise(random));
+      const double moved = round % 2 == 0 ? 0.0 : 0.01;
+      std::normal_distribution<double> noise;
+      for (Vector& p : mesh.points) p += moved * Vector(noise(random), noise(random), noise(random));
       if (round > 3) {
         for (auto& polygon : mesh.polygons) {
           std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()),
