@@ -100,7 +100,14 @@ TEST(LiveRefinement, OfTargetsTheNewestIsRefined) {
   LiveWire fresh(surface);
   fresh.seed({7});
   expect_equal(last, final_wires(fresh, 149));
-  EXPECT_FALSE(live.wires({100}).final()) << "asked for anew";
+  // The other thread may have refined before the answer is read, if this one has to wait for the processor in between.
+  // An answer that was kept would be final every time.
+  bool is_anew = false;
+  for (int i = 0; i < 100 && !is_anew; ++i) {
+    is_anew = !live.wires({100}).final();
+    final_wires(live, 149);
+  }
+  EXPECT_TRUE(is_anew) << "asked for anew";
 }
 
 TEST(LiveRefinement, ANewTargetOrSeedDoesNotWaitForARefinement) {
